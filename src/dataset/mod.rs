@@ -1,0 +1,44 @@
+//! Datasets: pixels turned into (features, target) rows, and their files.
+
+pub mod build;
+pub mod file;
+
+pub use build::{DatasetConfig, DatasetError, build};
+
+use crate::features::FeatureSet;
+
+/// Rows of features with their exact answers, pixel by pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rows {
+    /// The feature set of the columns.
+    pub feature_set: FeatureSet,
+    /// `[N, W]`, row by row.
+    pub features: Vec<f32>,
+    /// Transmittance, `[N]`.
+    pub targets: Vec<f32>,
+    /// Which pixel each row is of, `[N]`, counted from 0 within these rows.
+    pub pixels: Vec<u32>,
+}
+
+impl Rows {
+    /// Number of rows, N.
+    pub fn len(&self) -> usize {
+        self.targets.len()
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.targets.is_empty()
+    }
+}
+
+/// Training and validation rows of one configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    /// To fit weights to.
+    pub training: Rows,
+    /// To choose the best weights by; of pixels that training does not hold.
+    pub validation: Rows,
+    /// Where it comes from.
+    pub manifest: file::Manifest,
+}

@@ -1,0 +1,112 @@
+//! NMT24's features: `[d, n, b0, b1, b2, b3, b4]` on window depth.
+
+use crate::moments::power::power_moments;
+use crate::pixel::{CameraPlanes, DepthError, Pixel, ViewZ, absorbance};
+
+/// Names of the columns.
+pub const COLUMNS: [&str; 7] = ["d", "n", "b0", "b1", "b2", "b3", "b4"];
+
+/// Relative depth of a fragment in its pixel: d = (e^w − e^wmin)/(e^wmax − e^wmin); 0 where wmin = wmax.
+///
+/// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels suffer.
+///
+/// # Source
+/// NMT24 Sec. 3.1, first feature, on window depth.
+///
+/// # Domain
+/// 0 ≤ wmin ≤ w ≤ wmax ≤ 1; the result is in [0, 1].
+pub fn relative_depth(w: f64, wmin: f64, wmax: f64) -> f64 {
+    if wmax > wmin { libm::expm1(w - wmin) / libm::expm1(wmax - wmin) } else { 0.0 }
+}
+
+/// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w − 1, taken in f64
+/// and rounded to f32 once.
+///
+/// # Source
+/// NMT24 Sec. 3.1 and Eq. 5.
+///
+/// # Shapes
+/// `out: [n, 7]`, row by row.
+///
+/// # Errors
+/// [`DepthError::OutsidePlanes`].
+///
+/// # Panics
+/// If `out` has another length.
+pub fn extract(pixel: Pixel<'_>, planes: CameraPlanes, out: &mut [f32]) -> Result<(), DepthError> {
+    const W: usize = COLUMNS.len();
+    assert_eq!(out.len(), pixel.len() * W, "one row of {W} features a fragment");
+    let mut windows = Vec::with_capacity(pixel.len());
+    for &v in pixel.view_z {
+        windows.push(planes.window(ViewZ(v.into()))?);
+    }
+    let (wmin, wmax) = windows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), w| (lo.min(w.0), hi.max(w.0)));
+    let depths: Vec<_> = windows.iter().map(|w| w.to_moment()).collect();
+    let absorbances: Vec<_> = pixel.alpha.iter().map(|&a| absorbance(a)).collect();
+    let b: [f64; 5] = power_moments(&depths, &absorbances);
+    for (row, w) in out.chunks_exact_mut(W).zip(&windows) {
+        row[0] = relative_depth(w.0, wmin, wmax) as f32;
+        row[1] = pixel.len() as f32;
+        for (feature, b) in row[2..].iter_mut().zip(b) {
+            *feature = b as f32;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn features(view_z: &[f32], alpha: &[f32]) -> Vec<f32> {
+        let mut out = vec![f32::NAN; view_z.len() * 7];
+        extract(Pixel { view_z, alpha, color: None }, CameraPlanes::new(0.5, 10.0).unwrap(), &mut out).unwrap();
+        out
+    }
+
+    /// Two fragments on the planes themselves: w = 0 and 1, z = −1 and 1, A = ln 2 each.
+    #[test]
+    fn two_fragments_by_hand() {
+        let a = std::f32::consts::LN_2;
+        assert_eq!(
+            features(&[10.0, 0.5], &[0.5, 0.5]),
+            [1.0, 2.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0 * a]
+        );
+    }
+
+    #[test]
+    fn one_fragment_and_ties_have_relative_depth_zero() {
+        assert_eq!(features(&[3.0], &[0.5])[..2], [0.0, 1.0]);
+        let tied = features(&[3.0, 3.0], &[0.5, 0.0]);
+        assert_eq!((tied[0], tied[7]), (0.0, 0.0));
+        assert!(features(&[], &[]).is_empty());
+    }
+
+    #[test]
+    fn outside_the_planes_is_an_error() {
+        let planes = CameraPlanes::new(0.5, 10.0).unwrap();
+        let pixel = Pixel { view_z: &[11.0], alpha: &[0.5], color: None };
+        assert_eq!(extract(pixel, planes, &mut [0.0; 7]), Err(DepthError::OutsidePlanes { view_z: 11.0, near: 0.5, far: 10.0 }));
+    }
+
+    proptest! {
+        /// Against the formula as NMT24 prints it, where that is well conditioned. Tolerance 1e-13.
+        #[test]
+        fn relative_depth_is_the_printed_formula(lo in 0.0f64..0.4, hi in 0.6f64..1.0, u in 0.0f64..=1.0) {
+            let w = lo + u * (hi - lo);
+            let printed = (w.exp() - lo.exp()) / (hi.exp() - lo.exp());
+            prop_assert!((relative_depth(w, lo, hi) - printed).abs() < 1e-13);
+        }
+
+        /// In the thinnest pixels d stays within [0, 1] and tends to the linear (w − wmin)/(wmax − wmin). Tolerance: the range itself.
+        #[test]
+        fn relative_depth_of_thin_pixels_is_linear(lo in 0.0f64..0.9, exponent in 2.0f64..12.0, u in 0.0f64..=1.0) {
+            let range = 10f64.powf(-exponent);
+            let (hi, w) = (lo + range, lo + u * range);
+            let d = relative_depth(w, lo, hi);
+            let linear = (w - lo) / (hi - lo);
+            prop_assert!((0.0..=1.0).contains(&d) && (d - linear).abs() <= range);
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light passes in front of it.
+//!
+//! Data flows down this list of modules, and a module imports only from those above it:
+//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`evaluate`].
+
+#![warn(missing_docs)]
+
+pub mod dataset;
+pub mod evaluate;
+pub mod features;
+pub mod model;
+pub mod moments;
+pub mod numeric;
+pub mod oit;
+pub mod pixel;
+pub mod scene;
+pub mod synth;
+pub mod train;

@@ -1,0 +1,3 @@
+//! The `nmt` command.
+
+fn main() {}

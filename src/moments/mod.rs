@@ -1,0 +1,3 @@
+//! Moments of absorbance over depth.
+
+pub mod power;

@@ -1,0 +1,129 @@
+//! Transparency methods: each adds something up per pixel, weights each fragment by it, and composites.
+
+pub mod neural;
+
+use crate::pixel::{CameraPlanes, DepthError, FragmentList, Pixel, abuffer};
+use std::convert::Infallible;
+
+/// What a method must know besides the fragments.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Context {
+    /// Planes of the camera; those of the fragment list where none.
+    pub planes: Option<CameraPlanes>,
+    /// View depths that moment depth −1 and 1 stand for [scene units]; the extremes of the list where none.
+    pub depth_range: Option<(f32, f32)>,
+}
+
+impl Context {
+    /// The camera's planes for a list: those given here, or else its own.
+    pub fn planes_for(&self, list: &FragmentList) -> Option<CameraPlanes> {
+        self.planes.or(list.planes())
+    }
+}
+
+/// Why a method cannot be applied to a list.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MethodError {
+    /// A depth does not fit what the method needs.
+    #[error("{method}: {source}")]
+    Depth {
+        /// The method.
+        method: String,
+        /// What is wrong.
+        source: DepthError,
+    },
+}
+
+/// A transparency method as a renderer runs it.
+pub trait Method: Send + Sync {
+    /// Its name on the command line.
+    fn name(&self) -> String;
+
+    /// What pass 1 and the composite keep of a pixel [bits].
+    fn bits_per_pixel(&self) -> u32;
+
+    /// Whether its weights are transmittances, so that an error of T can be stated.
+    fn weights_are_transmittance(&self) -> bool {
+        true
+    }
+
+    /// Pass 1: goes over all fragments of a list, in the order in which they stand there.
+    ///
+    /// # Errors
+    /// [`MethodError`] where the list lacks what the method needs.
+    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError>;
+}
+
+/// A method after pass 1.
+pub trait Accumulated: Send + Sync {
+    /// Pass 2: weight of every fragment of pixel p, in the order of its fragments.
+    ///
+    /// # Shapes
+    /// `out: [n]`, n = number of fragments of pixel p.
+    fn weights(&self, p: usize, out: &mut [f64]);
+
+    /// Colour of a pixel from its weights; unless a method has its own rule, [`composite_normalised`].
+    fn composite(&self, pixel: Pixel<'_>, p: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
+        let _ = p;
+        composite_normalised(pixel, weights, background)
+    }
+}
+
+/// Colour of a pixel from its fragments' transmittances: C = (1 − e^−b0)/Σ a T · Σ a C T + e^−b0 C_bg; the background alone where Σ a T is 0.
+///
+/// # Source
+/// NMT24 Eq. 7.
+///
+/// # Panics
+/// If the pixel has fragments and no colours.
+pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background: [f64; 3]) -> [f64; 3] {
+    let behind = libm::exp(-abuffer::total_absorbance(pixel));
+    let color = pixel.color.unwrap_or(&[]);
+    assert_eq!(color.len(), pixel.len(), "compositing needs colours");
+    let mut total = 0.0;
+    let mut sum = [0.0; 3];
+    for ((&a, c), &t) in pixel.alpha.iter().zip(color).zip(transmittances) {
+        let weight = f64::from(a) * t;
+        total += weight;
+        for (s, &c) in sum.iter_mut().zip(c) {
+            *s += weight * f64::from(c);
+        }
+    }
+    let scale = if total > 0.0 { (1.0 - behind) / total } else { 0.0 };
+    std::array::from_fn(|c| scale * sum[c] + behind * background[c])
+}
+
+/// Weights of every fragment of a list, in the order of the list, on all cores.
+pub fn weights(list: &FragmentList, accumulated: &dyn Accumulated) -> Vec<f64> {
+    let mut out = vec![0.0; list.len()];
+    let Ok(()) = list.par_pixels(0..list.pixels(), &mut out, 1, |p, _, out| -> Result<(), Infallible> {
+        accumulated.weights(p, out);
+        Ok(())
+    });
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With exact transmittances the normalised composite is the over operator.
+    #[test]
+    fn exact_transmittances_composite_to_the_over_operator() {
+        let color = [[0.9, 0.1, 0.3], [0.2, 0.8, 0.4], [0.5, 0.5, 1.0]];
+        let pixel = Pixel { view_z: &[3.0, 1.0, 2.0], alpha: &[0.3, 0.6, 0.9], color: Some(&color) };
+        let mut t = [0.0; 3];
+        abuffer::transmittance(pixel, &mut t);
+        let (ours, truth) = (composite_normalised(pixel, &t, [1.0; 3]), abuffer::composite(pixel, [1.0; 3]));
+        assert!(ours.iter().zip(truth).all(|(a, b)| (a - b).abs() < 1e-14), "{ours:?} against {truth:?}");
+    }
+
+    #[test]
+    fn invisible_and_empty_pixels_show_the_background() {
+        let color = [[1.0, 0.0, 0.0]];
+        let clear = Pixel { view_z: &[1.0], alpha: &[0.0], color: Some(&color) };
+        assert_eq!(composite_normalised(clear, &[1.0], [0.2; 3]), [0.2; 3]);
+        let empty = Pixel { view_z: &[], alpha: &[], color: None };
+        assert_eq!(composite_normalised(empty, &[], [0.2; 3]), [0.2; 3]);
+    }
+}

@@ -1,0 +1,101 @@
+//! Neural moment transparency: a network answers from moments.
+
+use super::{Accumulated, Context, Method, MethodError};
+use crate::features::{Extractor, FeatureSet};
+use crate::model::Mlp;
+use crate::pixel::FragmentList;
+
+/// A network as a transparency method.
+pub struct Neural {
+    mlp: Mlp,
+}
+
+impl Neural {
+    /// The method that asks this network.
+    pub fn new(mlp: Mlp) -> Self {
+        Self { mlp }
+    }
+
+    fn error(&self, source: crate::pixel::DepthError) -> MethodError {
+        MethodError::Depth { method: self.name(), source }
+    }
+
+    /// Transmittance of every fragment of a list, in its order; features in f64 rounded to f32, forward pass in f32.
+    ///
+    /// `progress` is told how many fragments are done.
+    ///
+    /// # Errors
+    /// [`MethodError::Depth`] where camera planes are needed and unknown, or a fragment lies outside them.
+    pub fn transmittance(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Vec<f32>, MethodError> {
+        // Pixels are taken in runs of about this many fragments, so that their features stay a few megabytes.
+        const RUN: u64 = 1 << 18;
+        let extractor = Extractor::new(self.mlp.feature_set(), context.planes_for(list)).map_err(|e| self.error(e))?;
+        let offsets = list.offsets();
+        let mut out = Vec::with_capacity(list.len());
+        let mut first = 0;
+        while first < list.pixels() {
+            let end = offsets.partition_point(|&o| o < offsets[first] + RUN).clamp(first + 1, list.pixels());
+            let rows = extractor.list(list, first..end).map_err(|e| self.error(e))?;
+            out.extend(self.mlp.forward_batch::<f32>(&rows));
+            first = end;
+            progress(out.len() as u64);
+        }
+        Ok(out)
+    }
+}
+
+impl Method for Neural {
+    fn name(&self) -> String {
+        format!("neural:{}", self.mlp.name())
+    }
+
+    /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
+    fn bits_per_pixel(&self) -> u32 {
+        match self.mlp.feature_set() {
+            FeatureSet::Paper => 352,
+        }
+    }
+
+    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+        Ok(Box::new(Answers { list, transmittance: self.transmittance(list, context, &|_| {})? }))
+    }
+}
+
+/// All answers of a network; they are cheaper to ask for at once.
+struct Answers<'a> {
+    list: &'a FragmentList,
+    transmittance: Vec<f32>,
+}
+
+impl Accumulated for Answers<'_> {
+    fn weights(&self, p: usize, out: &mut [f64]) {
+        for (out, &t) in out.iter_mut().zip(&self.transmittance[self.list.range(p)]) {
+            *out = t.into();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mlp::tests::random_mlp;
+    use crate::oit;
+    use crate::pixel::CameraPlanes;
+
+    #[test]
+    fn answers_stand_in_the_order_of_the_list() {
+        let list = FragmentList::new(vec![0, 0, 2, 3], vec![2.0, 1.0, 4.0], vec![0.5, 0.25, 1.0], None).unwrap();
+        let planes = CameraPlanes::new(0.5, 8.0).unwrap();
+        let method = Neural::new(random_mlp(&[4], 1));
+        assert!(matches!(method.accumulate(&list, Context::default()), Err(MethodError::Depth { .. })));
+        let context = Context { planes: Some(planes), ..Context::default() };
+        let all = oit::weights(&list, &*method.accumulate(&list, context).unwrap());
+        let mut rows = vec![0.0; 14];
+        Extractor::new(FeatureSet::Paper, Some(planes)).unwrap().pixel(list.pixel(1), &mut rows).unwrap();
+        assert_eq!(all[0], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[..7])));
+        assert_eq!(all[1], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[7..])));
+        assert_eq!(all.len(), 3);
+        let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap().with_planes(planes);
+        assert!(method.transmittance(&none, Context::default(), &|_| {}).unwrap().is_empty());
+    }
+}

@@ -1,0 +1,191 @@
+//! The three kinds of depth, each a type of its own so that a mix-up does not compile.
+
+/// Distance along the view direction, linear, > 0 [scene units]. What fragment files carry.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct ViewZ(pub f64);
+
+/// Depth as `gl_FragCoord.z` holds it, in [0, 1], hyperbolic in [`ViewZ`].
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct WindowDepth(pub f64);
+
+/// Depth that moments are taken of, in [−1, 1].
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+pub struct MomentDepth(pub f64);
+
+/// Why one kind of depth could not be turned into another.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DepthError {
+    /// Window depth was asked for and no camera planes are known.
+    #[error("window depth needs the camera planes, which the fragment list does not carry; pass --near and --far")]
+    NoPlanes,
+    /// The planes are not 0 < near < far, or not finite.
+    #[error("camera planes near = {near}, far = {far}: expected 0 < near < far, both finite")]
+    BadPlanes {
+        /// Near plane [scene units].
+        near: f64,
+        /// Far plane [scene units].
+        far: f64,
+    },
+    /// A fragment lies in front of the near or behind the far plane.
+    #[error("view_z = {view_z} lies outside the camera planes [{near}, {far}]; correct --near and --far")]
+    OutsidePlanes {
+        /// The fragment's depth [scene units].
+        view_z: f64,
+        /// Near plane [scene units].
+        near: f64,
+        /// Far plane [scene units].
+        far: f64,
+    },
+    /// The range of the log warp is not 0 < v0 ≤ v1, or not finite.
+    #[error("depth range [{v0}, {v1}]: expected 0 < v0 <= v1, both finite")]
+    BadRange {
+        /// Least depth [scene units].
+        v0: f64,
+        /// Greatest depth [scene units].
+        v1: f64,
+    },
+}
+
+/// The clipping planes of a perspective camera [scene units].
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraPlanes {
+    near: f32,
+    far: f32,
+}
+
+impl CameraPlanes {
+    /// Planes at `near` and `far`.
+    ///
+    /// # Errors
+    /// [`DepthError::BadPlanes`] unless 0 < near < far, both finite.
+    pub fn new(near: f32, far: f32) -> Result<Self, DepthError> {
+        Self { near, far }.checked()
+    }
+
+    /// Itself, where it is valid; for planes that came from a file.
+    ///
+    /// # Errors
+    /// [`DepthError::BadPlanes`].
+    pub fn checked(self) -> Result<Self, DepthError> {
+        if self.near > 0.0 && self.near < self.far && self.far.is_finite() {
+            Ok(self)
+        } else {
+            Err(DepthError::BadPlanes { near: self.near.into(), far: self.far.into() })
+        }
+    }
+
+    /// Near plane [scene units].
+    pub fn near(&self) -> f32 {
+        self.near
+    }
+
+    /// Far plane [scene units].
+    pub fn far(&self) -> f32 {
+        self.far
+    }
+
+    /// Window depth w = far (v − near) / (v (far − near)).
+    ///
+    /// # Errors
+    /// [`DepthError::OutsidePlanes`] where v is not within [near, far].
+    pub fn window(&self, ViewZ(v): ViewZ) -> Result<WindowDepth, DepthError> {
+        let (near, far) = (f64::from(self.near), f64::from(self.far));
+        if !(near..=far).contains(&v) {
+            return Err(DepthError::OutsidePlanes { view_z: v, near, far });
+        }
+        Ok(WindowDepth(far * (v - near) / (v * (far - near))))
+    }
+
+    /// The inverse of [`Self::window`]: v = near·far / (far − w (far − near)), kept within the planes.
+    pub fn view_z(&self, WindowDepth(w): WindowDepth) -> ViewZ {
+        let (near, far) = (f64::from(self.near), f64::from(self.far));
+        ViewZ((near * far / (far - w * (far - near))).clamp(near, far))
+    }
+}
+
+impl WindowDepth {
+    /// Moment depth 2w − 1, as NMT24's shader takes it.
+    pub fn to_moment(self) -> MomentDepth {
+        MomentDepth(2.0 * self.0 - 1.0)
+    }
+}
+
+/// Logarithmic warp of view depth to moment depth: z = 2 ln(v/v0)/ln(v1/v0) − 1.
+///
+/// # Source
+/// MKKP18 Sec. 3.3.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LogWarp {
+    v0: f64,
+    inverse_log_ratio: f64,
+}
+
+impl LogWarp {
+    /// The warp that takes [v0, v1] to [−1, 1]; where v0 = v1 everything goes to 0.
+    ///
+    /// # Errors
+    /// [`DepthError::BadRange`] unless 0 < v0 ≤ v1, both finite.
+    pub fn new(ViewZ(v0): ViewZ, ViewZ(v1): ViewZ) -> Result<Self, DepthError> {
+        if !(v0 > 0.0 && v0 <= v1 && v1.is_finite()) {
+            return Err(DepthError::BadRange { v0, v1 });
+        }
+        let log_ratio = libm::log(v1 / v0);
+        Ok(Self { v0, inverse_log_ratio: if log_ratio > 0.0 { 1.0 / log_ratio } else { 0.0 } })
+    }
+
+    /// Moment depth of a view depth, clamped to [−1, 1].
+    pub fn moment(&self, ViewZ(v): ViewZ) -> MomentDepth {
+        if self.inverse_log_ratio == 0.0 {
+            return MomentDepth(0.0);
+        }
+        MomentDepth((2.0 * libm::log(v / self.v0) * self.inverse_log_ratio - 1.0).clamp(-1.0, 1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn planes_map_to_the_ends_of_window_depth() {
+        let planes = CameraPlanes::new(0.5, 10.0).unwrap();
+        assert_eq!(planes.window(ViewZ(0.5)).unwrap(), WindowDepth(0.0));
+        assert_eq!(planes.window(ViewZ(10.0)).unwrap(), WindowDepth(1.0));
+        assert!(planes.window(ViewZ(0.49)).is_err());
+        assert!(planes.window(ViewZ(10.01)).is_err());
+        assert!(planes.window(ViewZ(f64::NAN)).is_err());
+        // w(1) = 10·0.5/9.5
+        assert!((planes.window(ViewZ(1.0)).unwrap().0 - 5.0 / 9.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn planes_and_ranges_are_validated() {
+        for (near, far) in [(0.0, 1.0), (-1.0, 1.0), (2.0, 1.0), (1.0, 1.0), (f32::NAN, 1.0), (1.0, f32::INFINITY)] {
+            assert!(CameraPlanes::new(near, far).is_err(), "{near} {far}");
+        }
+        assert!(LogWarp::new(ViewZ(2.0), ViewZ(1.0)).is_err());
+        assert!(LogWarp::new(ViewZ(0.0), ViewZ(1.0)).is_err());
+        assert_eq!(LogWarp::new(ViewZ(3.0), ViewZ(3.0)).unwrap().moment(ViewZ(3.0)), MomentDepth(0.0));
+    }
+
+    #[test]
+    fn the_log_warp_takes_the_geometric_mean_to_zero() {
+        let warp = LogWarp::new(ViewZ(2.0), ViewZ(32.0)).unwrap();
+        assert_eq!(warp.moment(ViewZ(2.0)).0, -1.0);
+        assert_eq!(warp.moment(ViewZ(32.0)).0, 1.0);
+        assert!(warp.moment(ViewZ(8.0)).0.abs() < 1e-15);
+    }
+
+    proptest! {
+        /// Tolerance: view_z kept as f32 (relative 6e-8) between near 0.1 and far 100 moves window depth by less than 1e-7.
+        #[test]
+        fn window_depth_survives_the_f32_view_depth_of_a_file(w in 0.0f64..=1.0) {
+            let planes = CameraPlanes::new(0.1, 100.0).unwrap();
+            let stored = planes.view_z(WindowDepth(w)).0 as f32;
+            let back = planes.window(ViewZ(stored.into())).unwrap().0;
+            prop_assert!((back - w).abs() < 1e-7, "{w} -> {stored} -> {back}");
+        }
+    }
+}

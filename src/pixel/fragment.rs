@@ -1,0 +1,344 @@
+//! Fragments and lists of them.
+
+use super::{CameraPlanes, DepthError};
+use rayon::prelude::*;
+
+/// One transparent surface seen through one pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fragment {
+    /// Distance along the view direction, > 0 [scene units].
+    pub view_z: f32,
+    /// Opacity, in [0, 1].
+    pub alpha: f32,
+    /// Linear colour, each channel in [0, 1]; not premultiplied.
+    pub color: [f32; 3],
+}
+
+/// The fragments of one pixel, in any order.
+#[derive(Debug, Clone, Copy)]
+pub struct Pixel<'a> {
+    /// Distances along the view direction, > 0 [scene units].
+    pub view_z: &'a [f32],
+    /// Opacities, in [0, 1].
+    pub alpha: &'a [f32],
+    /// Linear colours where the list has any.
+    pub color: Option<&'a [[f32; 3]]>,
+}
+
+impl Pixel<'_> {
+    /// Number of fragments.
+    pub fn len(&self) -> usize {
+        self.view_z.len()
+    }
+
+    /// Whether the pixel holds no fragment.
+    pub fn is_empty(&self) -> bool {
+        self.view_z.is_empty()
+    }
+}
+
+/// The fragments of many pixels, as compressed sparse rows: pixel p holds fragments `offsets[p]..offsets[p + 1]`.
+///
+/// A list that exists is valid: every constructor checks what [`FragmentList::new`] documents.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FragmentList {
+    offsets: Vec<u64>,
+    view_z: Vec<f32>,
+    alpha: Vec<f32>,
+    color: Option<Vec<[f32; 3]>>,
+    size: Option<(u32, u32)>,
+    planes: Option<CameraPlanes>,
+}
+
+/// What is wrong with a fragment list, and where.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FragmentError {
+    /// There is no entry 0.
+    #[error("offsets is empty; it must hold one entry more than there are pixels, so at least the entry 0")]
+    NoOffsets,
+    /// The first offset is not 0.
+    #[error("offsets[0] = {0}; it must be 0")]
+    FirstOffset(u64),
+    /// Offsets fall.
+    #[error("offsets[{index}] = {value} is less than offsets[{}] = {previous}; offsets must never fall", index - 1)]
+    OffsetsFall {
+        /// Place in `offsets`.
+        index: usize,
+        /// Its value.
+        value: u64,
+        /// The value before it.
+        previous: u64,
+    },
+    /// The last offset is not the number of fragments.
+    #[error("the last offset is {last}, but there are {fragments} fragments; they must be equal")]
+    LastOffset {
+        /// The last offset.
+        last: u64,
+        /// Number of fragments.
+        fragments: usize,
+    },
+    /// An array has another length than `view_z`.
+    #[error("{name} holds {len} entries, but view_z holds {fragments}; one entry a fragment is needed")]
+    Length {
+        /// The array.
+        name: &'static str,
+        /// Its length.
+        len: usize,
+        /// Number of fragments.
+        fragments: usize,
+    },
+    /// A view depth is not a positive finite number.
+    #[error("view_z[{index}] = {value} (pixel {pixel}); it must be finite and greater than 0")]
+    ViewZ {
+        /// Fragment.
+        index: usize,
+        /// Pixel.
+        pixel: usize,
+        /// Its value.
+        value: f32,
+    },
+    /// An opacity is outside [0, 1].
+    #[error("alpha[{index}] = {value} (pixel {pixel}); it must lie in [0, 1]")]
+    Alpha {
+        /// Fragment.
+        index: usize,
+        /// Pixel.
+        pixel: usize,
+        /// Its value.
+        value: f32,
+    },
+    /// A colour is outside [0, 1].
+    #[error("color[{index}] = {value:?} (pixel {pixel}); every channel must lie in [0, 1]")]
+    Color {
+        /// Fragment.
+        index: usize,
+        /// Pixel.
+        pixel: usize,
+        /// Its value.
+        value: [f32; 3],
+    },
+    /// Width times height is not the number of pixels.
+    #[error("width {width} x height {height} is not the number of pixels, {pixels} (the length of offsets less one)")]
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Number of pixels.
+        pixels: usize,
+    },
+    /// The camera planes are invalid.
+    #[error(transparent)]
+    Planes(#[from] DepthError),
+}
+
+impl FragmentList {
+    /// A list from its arrays.
+    ///
+    /// # Shapes
+    /// `offsets: [P + 1]`, `view_z: [F]`, `alpha: [F]`, `color: [F]`.
+    ///
+    /// # Domain
+    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha and colour channels in [0, 1]. Empty pixels, a list
+    /// without fragments, ties and alpha 0 or 1 are valid.
+    ///
+    /// # Errors
+    /// [`FragmentError`] names the first entry that is out of its domain.
+    pub fn new(offsets: Vec<u64>, view_z: Vec<f32>, alpha: Vec<f32>, color: Option<Vec<[f32; 3]>>) -> Result<Self, FragmentError> {
+        let fragments = view_z.len();
+        match offsets.first() {
+            None => return Err(FragmentError::NoOffsets),
+            Some(0) => {}
+            Some(&first) => return Err(FragmentError::FirstOffset(first)),
+        }
+        if let Some(i) = offsets.windows(2).position(|w| w[1] < w[0]) {
+            return Err(FragmentError::OffsetsFall { index: i + 1, value: offsets[i + 1], previous: offsets[i] });
+        }
+        let last = offsets[offsets.len() - 1];
+        if last != fragments as u64 {
+            return Err(FragmentError::LastOffset { last, fragments });
+        }
+        let lengths = [("alpha", alpha.len()), ("color", color.as_ref().map_or(fragments, Vec::len))];
+        for (name, len) in lengths {
+            if len != fragments {
+                return Err(FragmentError::Length { name, len, fragments });
+            }
+        }
+        let pixel = |index: usize| offsets.partition_point(|&o| o <= index as u64) - 1;
+        if let Some(index) = view_z.iter().position(|&v| !(v > 0.0 && v.is_finite())) {
+            return Err(FragmentError::ViewZ { index, pixel: pixel(index), value: view_z[index] });
+        }
+        if let Some(index) = alpha.iter().position(|a| !(0.0..=1.0).contains(a)) {
+            return Err(FragmentError::Alpha { index, pixel: pixel(index), value: alpha[index] });
+        }
+        if let Some(color) = &color
+            && let Some(index) = color.iter().position(|c| c.iter().any(|x| !(0.0..=1.0).contains(x)))
+        {
+            return Err(FragmentError::Color { index, pixel: pixel(index), value: color[index] });
+        }
+        Ok(Self { offsets, view_z, alpha, color, size: None, planes: None })
+    }
+
+    /// The same list as an image, row by row from the top.
+    ///
+    /// # Errors
+    /// [`FragmentError::Size`] unless width × height is the number of pixels.
+    pub fn with_size(mut self, width: u32, height: u32) -> Result<Self, FragmentError> {
+        let pixels = self.pixels();
+        if u64::from(width) * u64::from(height) != pixels as u64 {
+            return Err(FragmentError::Size { width, height, pixels });
+        }
+        self.size = Some((width, height));
+        Ok(self)
+    }
+
+    /// The same list with the planes of the camera that saw it.
+    pub fn with_planes(mut self, planes: CameraPlanes) -> Self {
+        self.planes = Some(planes);
+        self
+    }
+
+    /// Number of pixels, P.
+    pub fn pixels(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Number of fragments, F.
+    pub fn len(&self) -> usize {
+        self.view_z.len()
+    }
+
+    /// Whether there is no fragment at all.
+    pub fn is_empty(&self) -> bool {
+        self.view_z.is_empty()
+    }
+
+    /// Where pixel p's fragments stand in [`Self::view_z`] and [`Self::alpha`].
+    ///
+    /// # Panics
+    /// If p is not less than [`Self::pixels`].
+    pub fn range(&self, p: usize) -> std::ops::Range<usize> {
+        self.offsets[p] as usize..self.offsets[p + 1] as usize
+    }
+
+    /// The fragments of pixel p.
+    ///
+    /// # Panics
+    /// If p is not less than [`Self::pixels`].
+    pub fn pixel(&self, p: usize) -> Pixel<'_> {
+        let range = self.range(p);
+        Pixel { view_z: &self.view_z[range.clone()], alpha: &self.alpha[range.clone()], color: self.color.as_ref().map(|c| &c[range]) }
+    }
+
+    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of an array that holds `width`
+    /// values for every fragment of the range, in the order of the list.
+    ///
+    /// # Errors
+    /// The first error of `f`, whichever thread meets it.
+    ///
+    /// # Panics
+    /// If `out` does not hold `width` values for every fragment of the range.
+    pub fn par_pixels<T: Send, E: Send>(
+        &self,
+        range: std::ops::Range<usize>,
+        out: &mut [T],
+        width: usize,
+        f: impl Fn(usize, Pixel<'_>, &mut [T]) -> Result<(), E> + Send + Sync,
+    ) -> Result<(), E> {
+        let fragments = (self.offsets[range.end] - self.offsets[range.start]) as usize;
+        assert_eq!(out.len(), fragments * width, "{width} values a fragment");
+        let mut rest = out;
+        let mut jobs = Vec::with_capacity(range.len());
+        for p in range {
+            let (own, others) = rest.split_at_mut(self.range(p).len() * width);
+            rest = others;
+            if !own.is_empty() {
+                jobs.push((p, own));
+            }
+        }
+        jobs.into_par_iter().with_min_len(64).try_for_each(|(p, out)| f(p, self.pixel(p), out))
+    }
+
+    /// Pixel p holds fragments `offsets[p]..offsets[p + 1]`.
+    pub fn offsets(&self) -> &[u64] {
+        &self.offsets
+    }
+
+    /// Distances along the view direction, > 0 [scene units].
+    pub fn view_z(&self) -> &[f32] {
+        &self.view_z
+    }
+
+    /// Opacities, in [0, 1].
+    pub fn alpha(&self) -> &[f32] {
+        &self.alpha
+    }
+
+    /// Linear colours.
+    pub fn color(&self) -> Option<&[[f32; 3]]> {
+        self.color.as_deref()
+    }
+
+    /// Columns and rows where the list is an image.
+    pub fn size(&self) -> Option<(u32, u32)> {
+        self.size
+    }
+
+    /// The camera's planes where they are known.
+    pub fn planes(&self) -> Option<CameraPlanes> {
+        self.planes
+    }
+
+    /// Greatest number of fragments in a pixel (the depth complexity).
+    pub fn depth_complexity(&self) -> usize {
+        self.offsets.windows(2).map(|w| (w[1] - w[0]) as usize).max().unwrap_or(0)
+    }
+
+    /// Least and greatest view depth of the whole list; none where it has no fragment.
+    pub fn depth_range(&self) -> Option<(f32, f32)> {
+        let first = *self.view_z.first()?;
+        Some(self.view_z.iter().fold((first, first), |(lo, hi), &v| (lo.min(v), hi.max(v))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn list(offsets: &[u64], view_z: &[f32], alpha: &[f32]) -> Result<FragmentList, FragmentError> {
+        FragmentList::new(offsets.to_vec(), view_z.to_vec(), alpha.to_vec(), None)
+    }
+
+    #[test]
+    fn valid_lists_that_look_odd() {
+        assert_eq!(list(&[0], &[], &[]).unwrap().pixels(), 0);
+        assert_eq!(list(&[0, 0, 0], &[], &[]).unwrap().depth_complexity(), 0);
+        let ties = list(&[0, 0, 2, 3], &[1.0, 1.0, 2.0], &[0.0, 1.0, 0.5]).unwrap();
+        assert_eq!((ties.pixels(), ties.len(), ties.depth_complexity()), (3, 3, 2));
+        assert_eq!(ties.range(1), 0..2);
+        assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
+    }
+
+    #[test]
+    fn every_error_names_its_place() {
+        let cases = [
+            (list(&[], &[], &[]), "offsets is empty"),
+            (list(&[1, 1], &[1.0], &[0.5]), "offsets[0] = 1"),
+            (list(&[0, 2, 1, 2], &[1.0, 1.0], &[0.5, 0.5]), "offsets[2] = 1 is less than offsets[1] = 2"),
+            (list(&[0, 3], &[1.0], &[0.5]), "the last offset is 3, but there are 1"),
+            (list(&[0, 1], &[1.0], &[]), "alpha holds 0 entries"),
+            (list(&[0, 0, 1], &[f32::NAN], &[0.5]), "view_z[0] = NaN (pixel 1)"),
+            (list(&[0, 1], &[0.0], &[0.5]), "view_z[0] = 0 (pixel 0)"),
+            (list(&[0, 1], &[-1.0], &[0.5]), "view_z[0] = -1"),
+            (list(&[0, 1], &[1.0], &[1.5]), "alpha[0] = 1.5"),
+            (list(&[0, 1], &[1.0], &[f32::NAN]), "alpha[0] = NaN"),
+        ];
+        for (result, part) in cases {
+            let message = result.unwrap_err().to_string();
+            assert!(message.contains(part), "{message}");
+        }
+        let color = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], Some(vec![[0.0, 2.0, 0.0]]));
+        assert!(color.unwrap_err().to_string().contains("color[0]"));
+        assert!(list(&[0, 0, 0], &[], &[]).unwrap().with_size(3, 1).is_err());
+    }
+}

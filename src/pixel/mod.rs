@@ -1,0 +1,10 @@
+//! Pixels and what is in them: fragments, absorbance, the three depths, and the exact answer that everything else approximates.
+
+pub mod absorbance;
+pub mod abuffer;
+pub mod depth;
+pub mod fragment;
+
+pub use absorbance::{ABSORBANCE_MAX, absorbance};
+pub use depth::{CameraPlanes, DepthError, LogWarp, MomentDepth, ViewZ, WindowDepth};
+pub use fragment::{Fragment, FragmentError, FragmentList, Pixel};

@@ -1,0 +1,3 @@
+//! Fragment lists from files.
+
+pub mod npz;

@@ -1,0 +1,325 @@
+//! The training loop: epochs, shuffling, validation, the best weights, checkpoints. It knows no backend.
+
+use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses};
+use super::{AdamMoments, Backend, TrainConfig, TrainConfigError, initial};
+use crate::dataset::{Dataset, Rows};
+use crate::model::{Mlp, Provenance, ShapeError};
+use crate::numeric::file::FileError;
+use crate::numeric::rng::stream;
+use rand::seq::SliceRandom;
+use std::path::{Path, PathBuf};
+
+/// Keeps the random numbers of shuffling apart from all others.
+const PURPOSE: u64 = 0x1002;
+
+/// Why training ended without a network.
+#[derive(Debug, thiserror::Error)]
+pub enum TrainError {
+    /// The configuration is invalid.
+    #[error(transparent)]
+    Config(#[from] TrainConfigError),
+    /// The checkpoint cannot be continued from.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// The checkpoint could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Nothing to learn from, or to choose by.
+    #[error("the dataset has no {0} rows")]
+    NoRows(&'static str),
+    /// The loss is no longer a number.
+    #[error("the loss is not finite in epoch {epoch}; lower train.learning_rate")]
+    Diverged {
+        /// The epoch, from 1.
+        epoch: u64,
+    },
+    /// The trained layers do not make a network.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}
+
+/// What is known after an epoch.
+#[derive(Debug, Clone, Copy)]
+pub struct EpochReport {
+    /// The epoch, from 1.
+    pub epoch: u64,
+    /// Its losses.
+    pub losses: Losses,
+    /// Least validation loss so far.
+    pub best_validation: f64,
+    /// Rows learnt from in this process so far.
+    pub samples: u64,
+}
+
+/// How training ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// All epochs are done.
+    Finished {
+        /// The network with the least validation loss.
+        mlp: Mlp,
+        /// Losses of every epoch.
+        history: Vec<Losses>,
+    },
+    /// It was asked to stop; the checkpoint holds everything up to the last whole epoch.
+    Interrupted {
+        /// Epochs that are done.
+        epochs: u64,
+        /// The checkpoint; none where not one epoch was done.
+        checkpoint: Option<PathBuf>,
+    },
+}
+
+/// What a training is: besides the rows, all that decides its result.
+#[derive(Debug, Clone)]
+pub struct Job<'a> {
+    /// Name of the network.
+    pub name: &'a str,
+    /// How to train.
+    pub config: &'a TrainConfig,
+    /// Seed of initial weights and shuffling.
+    pub seed: u64,
+    /// What computes the gradients.
+    pub backend: Backend,
+    /// Where checkpoints go.
+    pub checkpoint: &'a Path,
+    /// Whether to continue from the checkpoint that stands there.
+    pub resume: bool,
+    /// What is already known of the network's origin; losses and the like are filled in.
+    pub provenance: Provenance,
+}
+
+/// Trains a network.
+///
+/// `observe` is called after every epoch; `stop` is asked before every step, and once it says true the checkpoint is written and training ends.
+/// A training that was interrupted and resumed takes the same steps as one that was not.
+///
+/// # Errors
+/// [`TrainError`]. A checkpoint that was there stays.
+pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe: &mut dyn FnMut(&EpochReport)) -> Result<Outcome, TrainError> {
+    job.config.validate()?;
+    for (name, rows) in [("training", &dataset.training), ("validation", &dataset.validation)] {
+        if rows.is_empty() {
+            return Err(TrainError::NoRows(name));
+        }
+    }
+    let Job { config, seed, backend, .. } = *job;
+    let rows = &dataset.training;
+    let shapes = initial::shapes(rows.feature_set.width(), &config.hidden);
+    let network = |parameters: &[f32], provenance| Mlp::new(job.name, rows.feature_set, initial::layers(&shapes, parameters)?, provenance);
+
+    let parameters = initial::glorot(&shapes, seed);
+    let mut optimiser = backend.optimiser(&shapes, &parameters, config);
+    let mut done = Checkpoint {
+        format: "nmt-checkpoint".to_owned(),
+        version: CHECKPOINT_VERSION,
+        config: config.clone(),
+        seed,
+        dataset_hash: dataset.manifest.hash.clone(),
+        backend,
+        best_parameters: parameters.clone(),
+        parameters,
+        moments: AdamMoments::default(),
+        best_epoch: 0,
+        history: Vec::new(),
+    };
+    if job.resume {
+        let earlier = Checkpoint::load(job.checkpoint)?;
+        earlier.check(job.checkpoint, config, seed, &dataset.manifest.hash, backend, initial::count(&shapes))?;
+        optimiser.restore(&earlier.parameters, &earlier.moments);
+        done = Checkpoint { config: config.clone(), ..earlier };
+    }
+    let best_validation = |done: &Checkpoint| match done.best_epoch {
+        0 => f64::INFINITY,
+        epoch => done.history[epoch as usize - 1].validation,
+    };
+
+    let mut batch = Batch::default();
+    let mut order: Vec<u32> = Vec::new();
+    let mut samples = 0;
+    for epoch in done.history.len() as u64 + 1..=config.epochs {
+        order.clear();
+        order.extend(0..rows.len() as u32);
+        order.shuffle(&mut stream(seed, PURPOSE, epoch));
+        let mut squared_error = 0.0;
+        for indices in order.chunks(config.batch) {
+            if stop() {
+                return interrupted(&done, job.checkpoint);
+            }
+            batch.gather(rows, indices);
+            squared_error += optimiser.step(&batch.features, &batch.targets, config.learning_rate) * indices.len() as f64;
+            samples += indices.len() as u64;
+        }
+        let training = squared_error / rows.len() as f64;
+        let parameters = optimiser.parameters();
+        if !training.is_finite() || parameters.iter().any(|p| !p.is_finite()) {
+            return Err(TrainError::Diverged { epoch });
+        }
+        let validation = mean_squared_error(&network(&parameters, Provenance::default())?, &dataset.validation);
+        if !validation.is_finite() {
+            return Err(TrainError::Diverged { epoch });
+        }
+        if validation < best_validation(&done) {
+            done.best_epoch = epoch;
+            done.best_parameters.clone_from(&parameters);
+        }
+        done.parameters = parameters;
+        done.moments = optimiser.moments();
+        done.history.push(Losses { training, validation });
+        let losses = Losses { training, validation };
+        observe(&EpochReport { epoch, losses, best_validation: best_validation(&done), samples });
+        if epoch % config.checkpoint_every == 0 && epoch < config.epochs {
+            done.save(job.checkpoint)?;
+        }
+    }
+    let best = done.history[done.best_epoch as usize - 1];
+    let provenance = Provenance {
+        seed: Some(seed),
+        dataset_hash: Some(done.dataset_hash),
+        backend: Some(backend.name().to_owned()),
+        epochs: Some(done.history.len() as u64),
+        best_epoch: Some(done.best_epoch),
+        training_loss: Some(best.training),
+        validation_loss: Some(best.validation),
+        ..job.provenance.clone()
+    };
+    Ok(Outcome::Finished { mlp: network(&done.best_parameters, provenance)?, history: done.history })
+}
+
+fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
+    let epochs = done.history.len() as u64;
+    if epochs == 0 {
+        return Ok(Outcome::Interrupted { epochs, checkpoint: None });
+    }
+    done.save(path)?;
+    Ok(Outcome::Interrupted { epochs, checkpoint: Some(path.to_owned()) })
+}
+
+/// Mean squared error of a network over rows, in f64 over its f32 answers.
+pub fn mean_squared_error(mlp: &Mlp, rows: &Rows) -> f64 {
+    let out = mlp.forward_batch::<f32>(&rows.features);
+    out.iter().zip(&rows.targets).map(|(&o, &t)| (f64::from(o) - f64::from(t)).powi(2)).sum::<f64>() / rows.len() as f64
+}
+
+/// The rows of one step, side by side.
+#[derive(Default)]
+struct Batch {
+    features: Vec<f32>,
+    targets: Vec<f32>,
+}
+
+impl Batch {
+    fn gather(&mut self, rows: &Rows, indices: &[u32]) {
+        let width = rows.feature_set.width();
+        self.features.clear();
+        self.targets.clear();
+        for &i in indices {
+            let i = i as usize;
+            self.features.extend_from_slice(&rows.features[i * width..][..width]);
+            self.targets.push(rows.targets[i]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dataset::{DatasetConfig, build};
+    use crate::features::FeatureSet;
+    use crate::synth::SynthConfig;
+    use std::cell::Cell;
+
+    fn dataset() -> Dataset {
+        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 1000, validation_pairs: 300 };
+        build("t", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap().0
+    }
+
+    fn config(epochs: u64) -> TrainConfig {
+        toml::from_str(&format!("hidden = [8]\nepochs = {epochs}\nbatch = 256\nlearning_rate = 1e-3\ncheckpoint_every = 2")).unwrap()
+    }
+
+    fn job<'a>(config: &'a TrainConfig, checkpoint: &'a Path, resume: bool) -> Job<'a> {
+        Job { name: "t", config, seed: 11, backend: Backend::Flex, checkpoint, resume, provenance: Provenance::default() }
+    }
+
+    fn finished(outcome: Outcome) -> (Mlp, Vec<Losses>) {
+        match outcome {
+            Outcome::Finished { mlp, history } => (mlp, history),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn learns_and_keeps_the_best_on_validation() {
+        let folder = tempfile::tempdir().unwrap();
+        let (dataset, config) = (dataset(), config(30));
+        let path = folder.path().join("m.checkpoint.json");
+        let mut reports = Vec::new();
+        let (mlp, history) = finished(train(&dataset, &job(&config, &path, false), &|| false, &mut |r| reports.push(*r)).unwrap());
+        assert_eq!((history.len(), reports.len()), (30, 30));
+        assert_eq!(reports[29].samples, 30 * dataset.training.len() as u64);
+        assert!(history[29].training < 0.5 * history[0].training);
+        let least = history.iter().map(|l| l.validation).fold(f64::INFINITY, f64::min);
+        assert_eq!(mlp.provenance.validation_loss, Some(least));
+        assert_eq!(mean_squared_error(&mlp, &dataset.validation), least);
+    }
+
+    /// Stopped amid an epoch and resumed: the same weights to the bit as without a stop.
+    #[test]
+    fn an_interruption_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let (dataset, config) = (dataset(), config(7));
+        let path = folder.path().join("m.checkpoint.json");
+        let straight = finished(train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}).unwrap());
+        let steps = Cell::new(0);
+        let stop = || {
+            steps.set(steps.get() + 1);
+            steps.get() > 4 * 3 + 2
+        };
+        match train(&dataset, &job(&config, &path, false), &stop, &mut |_| {}).unwrap() {
+            Outcome::Interrupted { epochs: 3, checkpoint: Some(at) } => assert_eq!(at, path),
+            other => panic!("{other:?}"),
+        }
+        let resumed = finished(train(&dataset, &job(&config, &path, true), &|| false, &mut |_| {}).unwrap());
+        assert_eq!(resumed, straight);
+    }
+
+    #[test]
+    fn stopped_before_the_first_epoch_there_is_nothing_to_keep() {
+        let folder = tempfile::tempdir().unwrap();
+        let config = config(3);
+        let path = folder.path().join("c.json");
+        let outcome = train(&dataset(), &job(&config, &path, false), &|| true, &mut |_| {}).unwrap();
+        assert!(matches!(outcome, Outcome::Interrupted { epochs: 0, checkpoint: None }) && !path.exists());
+    }
+
+    #[test]
+    fn foreign_checkpoints_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let (dataset, config) = (dataset(), config(4));
+        let path = folder.path().join("c.json");
+        let error = |job: &Job<'_>| train(&dataset, job, &|| false, &mut |_| {}).unwrap_err().to_string();
+        assert!(error(&job(&config, &path, true)).contains("cannot read"));
+        std::fs::write(&path, "{}").unwrap();
+        assert!(error(&job(&config, &path, true)).contains("not a checkpoint"));
+        train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}).unwrap();
+        let faster = TrainConfig { learning_rate: 1e-2, ..config.clone() };
+        assert!(error(&job(&faster, &path, true)).contains("another training configuration"));
+        assert!(error(&Job { seed: 12, ..job(&config, &path, true) }).contains("another seed"));
+        assert!(error(&Job { backend: Backend::Ndarray, ..job(&config, &path, true) }).contains("another backend"));
+        let longer = TrainConfig { epochs: 6, ..config };
+        assert_eq!(finished(train(&dataset, &job(&longer, &path, true), &|| false, &mut |_| {}).unwrap()).1.len(), 6);
+    }
+
+    #[test]
+    fn divergence_and_bad_configurations_are_errors() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("c.json");
+        let mut dataset = dataset();
+        let bad = TrainConfig { batch: 0, ..config(1) };
+        assert!(train(&dataset, &job(&bad, &path, false), &|| false, &mut |_| {}).unwrap_err().to_string().contains("train.batch = 0"));
+        dataset.training.features[0] = f32::INFINITY;
+        let config = config(1);
+        assert!(matches!(train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}), Err(TrainError::Diverged { epoch: 1 })));
+    }
+}
