@@ -11,9 +11,9 @@ pub enum Value<const L: usize> {
     /// The same number in every lane.
     Uniform(f32),
     /// A number a lane.
-    Lanes(Box<[f32; L]>),
+    Lanes(Arc<[f32; L]>),
     /// A truth value a lane.
-    Bools(Box<[bool; L]>),
+    Bools(Arc<[bool; L]>),
     /// An index, the same in every lane.
     Index(u32),
     /// A vector, matrix (of columns) or array.
@@ -86,10 +86,20 @@ impl<const L: usize> Value<L> {
         }
     }
 
+    /// A number a lane. A plain loop, which vectorises, where the array's own `map` does not.
+    #[inline]
+    fn each(f: impl Fn(usize) -> f32) -> Self {
+        let mut out = [0.0; L];
+        for (lane, out) in out.iter_mut().enumerate() {
+            *out = f(lane);
+        }
+        Self::Lanes(Arc::new(out))
+    }
+
     fn map(&self, f: &impl Fn(f32) -> f32) -> Result<Self> {
         Ok(match self {
             Self::Uniform(x) => Self::Uniform(f(*x)),
-            Self::Lanes(x) => Self::Lanes(Box::new(x.map(f))),
+            Self::Lanes(x) => Self::each(|l| f(x[l])),
             Self::Composite(items) => Self::Composite(items.iter().map(|i| i.map(f)).collect::<Result<_>>()?),
             _ => return Err(InterpretError::Operands("arithmetic")),
         })
@@ -104,19 +114,19 @@ impl<const L: usize> Value<L> {
             (Self::Composite(a), b @ (Self::Uniform(_) | Self::Lanes(_))) => Self::Composite(a.iter().map(|a| a.zip(b, f)).collect::<Result<_>>()?),
             (a @ (Self::Uniform(_) | Self::Lanes(_)), Self::Composite(b)) => Self::Composite(b.iter().map(|b| a.zip(b, f)).collect::<Result<_>>()?),
             (Self::Uniform(a), Self::Uniform(b)) => Self::Uniform(f(*a, *b)),
-            (Self::Uniform(a), Self::Lanes(b)) => Self::Lanes(Box::new(b.map(|b| f(*a, b)))),
-            (Self::Lanes(a), Self::Uniform(b)) => Self::Lanes(Box::new(a.map(|a| f(a, *b)))),
-            (Self::Lanes(a), Self::Lanes(b)) => Self::Lanes(Box::new(std::array::from_fn(|l| f(a[l], b[l])))),
+            (Self::Uniform(a), Self::Lanes(b)) => Self::each(|l| f(*a, b[l])),
+            (Self::Lanes(a), Self::Uniform(b)) => Self::each(|l| f(a[l], *b)),
+            (Self::Lanes(a), Self::Lanes(b)) => Self::each(|l| f(a[l], b[l])),
             _ => return Err(InterpretError::Operands("arithmetic")),
         })
     }
 
     fn compare(&self, other: &Self, f: impl Fn(f32, f32) -> bool) -> Result<Self> {
-        let mut out = Box::new([false; L]);
+        let mut out = [false; L];
         for (lane, out) in out.iter_mut().enumerate() {
             *out = f(self.lane(lane)?, other.lane(lane)?);
         }
-        Ok(Self::Bools(out))
+        Ok(Self::Bools(Arc::new(out)))
     }
 
     fn columns(&self) -> Option<&[Self]> {
@@ -157,11 +167,11 @@ impl<const L: usize> Value<L> {
 
     fn select(condition: &Self, accept: &Self, reject: &Self) -> Result<Self> {
         let Self::Bools(c) = condition else { return Err(InterpretError::Operands("select")) };
-        let mut out = Box::new([0.0; L]);
+        let mut out = [0.0; L];
         for (lane, out) in out.iter_mut().enumerate() {
             *out = if c[lane] { accept.lane(lane)? } else { reject.lane(lane)? };
         }
-        Ok(Self::Lanes(out))
+        Ok(Self::Lanes(Arc::new(out)))
     }
 }
 
@@ -218,7 +228,7 @@ impl<'a> Interpreter<'a> {
     fn call_block<const L: usize>(&self, name: &str, rows: &[f32], width: usize) -> Result<Vec<f32>> {
         let n = rows.len() / width;
         // Lanes beyond the last row repeat it.
-        let lanes = |i: usize| Value::Lanes(Box::new(std::array::from_fn(|lane| rows[lane.min(n - 1) * width + i])));
+        let lanes = |i: usize| Value::each(|lane| rows[lane.min(n - 1) * width + i]);
         match self.call::<L>(name, vec![Value::Composite((0..width).map(lanes).collect())]) {
             Ok(value) => (0..n).map(|lane| value.lane(lane)).collect(),
             Err(InterpretError::Divergent) if L > 1 => {
@@ -277,7 +287,7 @@ fn literal_value<const L: usize>(literal: Literal) -> Result<Value<L>> {
         Literal::F32(x) => Ok(Value::Uniform(x)),
         Literal::U32(x) => Ok(Value::Index(x)),
         Literal::I32(x) => u32::try_from(x).map(Value::Index).map_err(|_| InterpretError::Operands("an index")),
-        Literal::Bool(x) => Ok(Value::Bools(Box::new([x; L]))),
+        Literal::Bool(x) => Ok(Value::Bools(Arc::new([x; L]))),
         other => unsupported(other),
     }
 }

@@ -104,31 +104,41 @@ pub const OPTIONAL_TOOLS: [&str; 3] = ["onnxruntime", "glslangValidator", "gpu"]
 /// What the rows should give, and what they must not.
 struct Reference {
     rows: Vec<CheckRows>,
-    /// For each kind of rows: f64 answers, error of the f32 pass, and f64 answers of the controls.
-    exact: Vec<(Vec<f64>, AbsoluteError, Vec<(&'static str, Vec<f64>)>)>,
+    /// For each kind of rows.
+    answers: Vec<Answers>,
+}
+
+/// Answers to rows of one kind.
+struct Answers {
+    /// Of the f64 forward pass.
+    exact: Vec<f64>,
+    /// Error of the f32 forward pass.
+    ours: AbsoluteError,
+    /// Of the controls, in f64.
+    controls: Vec<(&'static str, Vec<f64>)>,
 }
 
 impl Reference {
     fn new(mlp: &Mlp, options: CheckOptions) -> Result<Self, String> {
         let rows = vec![rows::in_distribution(mlp, options.rows)?, rows::extreme(mlp.feature_set().width(), options.extreme_rows)];
         let controls = controls(mlp);
-        let exact = rows
+        let answers = rows
             .iter()
             .map(|rows| {
                 let exact = mlp.forward_batch::<f64>(&rows.features);
                 let ours = AbsoluteError::of(&widen(&mlp.forward_batch::<f32>(&rows.features)), &exact);
                 let controls = controls.iter().map(|(name, mlp)| (*name, mlp.forward_batch::<f64>(&rows.features))).collect();
-                (exact, ours, controls)
+                Answers { exact, ours, controls }
             })
             .collect();
-        Ok(Self { rows, exact })
+        Ok(Self { rows, answers })
     }
 
     /// Runs an export on all rows and compares.
     fn compare(&self, format: Format, tool: &'static str, run: impl Fn(&[f32]) -> Result<Vec<f32>, String>) -> Finding {
         let mut numbers = Vec::new();
         let mut problems = Vec::new();
-        for (rows, (exact, reference, controls)) in self.rows.iter().zip(&self.exact) {
+        for (rows, Answers { exact, ours, controls }) in self.rows.iter().zip(&self.answers) {
             let out = match run(&rows.features) {
                 Ok(out) if out.len() == exact.len() => widen(&out),
                 Ok(out) => {
@@ -141,7 +151,7 @@ impl Reference {
                 }
             };
             let export = AbsoluteError::of(&out, exact);
-            let mut bar = BAR_FACTOR * reference.worst().max(ROUNDING);
+            let mut bar = BAR_FACTOR * ours.worst().max(ROUNDING);
             if rows.kind == RowKind::InDistribution {
                 bar = bar.min(BAR_IN_DISTRIBUTION);
             }
@@ -151,7 +161,7 @@ impl Reference {
                     rows.kind.name(),
                     export.worst(),
                     export.nonfinite(),
-                    reference.worst()
+                    ours.worst()
                 ));
             }
             if out.iter().any(|t| !(0.0..=1.0).contains(t)) {
@@ -161,7 +171,7 @@ impl Reference {
                 let passed = controls.iter().filter(|(_, control)| AbsoluteError::of(&out, control).within(bar)).map(|(name, _)| *name);
                 problems.extend(passed.map(|name| format!("the check is blind: a network with {name} would have passed too")));
             }
-            numbers.push(Numbers { kind: rows.kind, export, reference: *reference, bar });
+            numbers.push(Numbers { kind: rows.kind, export, reference: *ours, bar });
         }
         let result = if problems.is_empty() { Ok(()) } else { Err(problems.join("; ")) };
         Finding { numbers, ..Finding::new(format, tool, "computes the reference", result) }
