@@ -191,10 +191,15 @@ fn controls(mlp: &Mlp) -> Vec<(&'static str, Mlp)> {
     last.weights[greatest] += 1.0 / 64.0;
     last.biases[0] += 1.0 / 64.0;
 
+    // The two features that the first layer treats most differently.
+    let first = &mlp.layers()[0];
+    let difference = |i: usize, j: usize| -> f32 { (0..first.outputs()).map(|o| (first.weight(i, o) - first.weight(j, o)).abs()).sum() };
+    let pairs = (0..first.inputs()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let (i, j) = pairs.max_by(|&a, &b| difference(a.0, a.1).total_cmp(&difference(b.0, b.1))).unwrap_or((0, 0));
     let mut swapped = mlp.layers().to_vec();
-    let outputs = swapped[0].outputs();
+    let outputs = first.outputs();
     for o in 0..outputs {
-        swapped[0].weights.swap(o, outputs + o);
+        swapped[0].weights.swap(i * outputs + o, j * outputs + o);
     }
     let mut controls = vec![("one weight perturbed", rebuilt(perturbed)), ("two features swapped", rebuilt(swapped))];
 
