@@ -1,0 +1,562 @@
+//! Pictures of an evaluation: every image and FLIP map as PNG, and a contact sheet that shows a whole scene at a glance.
+//!
+//! Numbers are never taken from these pictures: they are clamped, sRGB-encoded and rounded to 8 bits for display.
+
+use super::judge::{MethodResult, by_error};
+use super::text::{self, fill};
+use super::{EvaluateError, FlipMap, Image, Judged};
+use crate::numeric::file::{FileError, Replace, write_atomically};
+use crate::pixel::FragmentList;
+use ::image::codecs::png::PngEncoder;
+use ::image::{ExtendedColorType, ImageEncoder, Rgb, RgbImage};
+use std::path::Path;
+
+/// What stands where a value is not finite: a magenta that neither scenes nor the colour map hold.
+const NOT_FINITE: [u8; 3] = [255, 0, 255];
+
+/// Linear colour to an 8-bit sRGB display colour (IEC 61966-2-1); magenta where a channel is not finite.
+fn display(linear: [f64; 3]) -> [u8; 3] {
+    if linear.iter().any(|v| !v.is_finite()) {
+        return NOT_FINITE;
+    }
+    linear.map(|v| {
+        let v = v.clamp(0.0, 1.0);
+        let encoded = if v <= 0.0031308 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        (255.0 * encoded).round() as u8
+    })
+}
+
+/// Display colours of 0, 0.2, … 1 on the error scale: from near black over violet and red to pale yellow, ever lighter.
+const HEAT: [[f64; 3]; 6] =
+    [[6.0, 5.0, 18.0], [58.0, 20.0, 98.0], [134.0, 38.0, 118.0], [210.0, 66.0, 92.0], [249.0, 144.0, 86.0], [254.0, 244.0, 186.0]];
+
+/// Display colour of an error from 0 to 1; greater ones look like 1, one that is not finite is magenta.
+fn heat(error: f64) -> [u8; 3] {
+    if !error.is_finite() {
+        return NOT_FINITE;
+    }
+    let place = error.clamp(0.0, 1.0) * (HEAT.len() - 1) as f64;
+    let below = (place as usize).min(HEAT.len() - 2);
+    let share = place - below as f64;
+    std::array::from_fn(|c| (HEAT[below][c] + share * (HEAT[below + 1][c] - HEAT[below][c])).round() as u8)
+}
+
+fn picture(width: u32, height: u32, color: impl Fn(usize) -> [u8; 3]) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| Rgb(color(y as usize * width as usize + x as usize)))
+}
+
+fn image_picture(image: &Image) -> RgbImage {
+    picture(image.width(), image.height(), |i| display(image.pixels()[i]))
+}
+
+fn write_png(path: &Path, replace: Replace, picture: &RgbImage) -> Result<(), EvaluateError> {
+    write_atomically(path, replace, |w| {
+        let (width, height) = picture.dimensions();
+        PngEncoder::new(w).write_image(picture.as_raw(), width, height, ExtendedColorType::Rgb8).map_err(std::io::Error::other)
+    })
+    .map_err(|e: FileError| e.into())
+}
+
+/// Writes an image as PNG: clamped to [0, 1], sRGB-encoded, 8 bits; magenta where it is not finite.
+///
+/// # Errors
+/// [`EvaluateError::File`].
+pub fn write_image(path: &Path, replace: Replace, image: &Image) -> Result<(), EvaluateError> {
+    write_png(path, replace, &image_picture(image))
+}
+
+/// Writes a FLIP map as PNG, from near black at 0 to pale yellow at 1; magenta where it is not finite.
+///
+/// # Errors
+/// [`EvaluateError::File`].
+pub fn write_flip(path: &Path, replace: Replace, map: &FlipMap) -> Result<(), EvaluateError> {
+    write_png(path, replace, &picture(map.width(), map.height(), |i| heat(map.values()[i].into())))
+}
+
+/// A method's name as part of a file name: what is neither an ASCII letter, a digit, a dot nor a hyphen becomes a hyphen.
+///
+/// Two names may give one part; the caller who evaluates such methods together must tell them apart.
+pub fn file_stem(method: &str) -> String {
+    let stem: String = method.chars().map(|c| if c.is_ascii_alphanumeric() || c == '.' || c == '-' { c } else { '-' }).collect();
+    let stem = stem.trim_matches(['.', '-']);
+    if stem.is_empty() { "method".to_owned() } else { stem.to_owned() }
+}
+
+/// Writes a method's image to `STEM.png` and its FLIP map to `STEM.flip.png` in a folder; nothing where the list makes no image.
+///
+/// # Errors
+/// [`EvaluateError::File`].
+pub fn write_method(folder: &Path, stem: &str, replace: Replace, judged: &Judged) -> Result<(), EvaluateError> {
+    let Some((image, map)) = &judged.picture else { return Ok(()) };
+    write_image(&folder.join(format!("{stem}.png")), replace, image)?;
+    write_flip(&folder.join(format!("{stem}.flip.png")), replace, map)
+}
+
+/// Greatest width and height of an image on a sheet [pixels].
+const PANEL: u32 = 336;
+/// Between panels [pixels].
+const GAP: u32 = 8;
+/// Around the sheet and between its cells [pixels].
+const MARGIN: u32 = 28;
+/// Height of a line of scale 2 with what is below it [pixels].
+const LINE: u32 = 2 * text::HEIGHT + 6;
+/// The crop is this share of the image's width and height.
+const CROP: u32 = 8;
+
+const PAGE: Rgb<u8> = Rgb([245, 245, 247]);
+const INK: Rgb<u8> = Rgb([22, 22, 28]);
+const FAINT: Rgb<u8> = Rgb([98, 98, 110]);
+const FRAME: Rgb<u8> = Rgb([186, 186, 194]);
+const ALARM: Rgb<u8> = Rgb([190, 0, 60]);
+
+/// A contact sheet of one scene: the exact image and those of all methods, the best first, each with its numbers, its FLIP map and an
+/// enlarged crop of where the methods together differ most.
+///
+/// It keeps 7 bytes a pixel and method until it is rendered.
+pub struct Sheet {
+    scene: String,
+    subtitle: String,
+    truth: Shown,
+    methods: Vec<(MethodResult, Shown, FlipMap)>,
+}
+
+/// An image in the two forms that a sheet needs.
+struct Shown {
+    full: RgbImage,
+    panel: RgbImage,
+}
+
+impl Shown {
+    fn of(image: &Image) -> Self {
+        let (width, height) = fit(image.width(), image.height(), PANEL);
+        let linear = resample(image.pixels(), image.width(), (width, height));
+        Self { full: image_picture(image), panel: picture(width, height, |i| display(linear[i])) }
+    }
+}
+
+/// A rectangle [pixels of the scene's image].
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Crop {
+    x: u32,
+    y: u32,
+    width: u32,
+    height: u32,
+}
+
+impl Sheet {
+    /// A sheet of a scene: a fragment list, its name and its exact image.
+    pub fn new(scene: &str, list: &FragmentList, exact: &Image) -> Self {
+        let (width, height, fragments) = (exact.width(), exact.height(), list.len());
+        let subtitle = format!("{width} x {height} pixels, {fragments} fragments, up to {} in a pixel", list.depth_complexity());
+        Self { scene: scene.to_owned(), subtitle, truth: Shown::of(exact), methods: vec![] }
+    }
+
+    /// Adds a method; one without a picture is left out.
+    ///
+    /// # Errors
+    /// [`EvaluateError::SizesDiffer`] where its image is not of the scene's size.
+    pub fn add(&mut self, judged: &Judged) -> Result<(), EvaluateError> {
+        let Some((image, map)) = &judged.picture else { return Ok(()) };
+        let reference = self.truth.full.dimensions();
+        if reference != (image.width(), image.height()) {
+            return Err(EvaluateError::SizesDiffer { reference, test: (image.width(), image.height()) });
+        }
+        self.methods.push((judged.result.clone(), Shown::of(image), map.clone()));
+        Ok(())
+    }
+
+    /// Writes the sheet as PNG.
+    ///
+    /// # Errors
+    /// [`EvaluateError::EmptySheet`] without methods, [`EvaluateError::File`].
+    pub fn write(&self, path: &Path, replace: Replace) -> Result<(), EvaluateError> {
+        write_png(path, replace, &self.render()?)
+    }
+
+    /// The sheet as a picture.
+    fn render(&self) -> Result<RgbImage, EvaluateError> {
+        if self.methods.is_empty() {
+            return Err(EvaluateError::EmptySheet);
+        }
+        let mut methods: Vec<_> = self.methods.iter().collect();
+        methods.sort_by(|a, b| by_error(&a.0, &b.0));
+        let crop = self.crop();
+        let top = self.scale();
+        let names: Vec<Vec<String>> = methods.iter().map(|(result, ..)| shortened(&result.method)).collect();
+
+        let panel = self.truth.panel.dimensions();
+        let half = fit(panel.0, panel.1, (PANEL - GAP) / 2);
+        let name_lines = names.iter().map(|n| n.len() as u32).max().unwrap_or(1);
+        let cell = (PANEL, (name_lines + 2) * LINE + GAP + panel.1 + GAP + half.1 + LINE);
+        let head = MARGIN + 3 * text::HEIGHT + GAP + 2 * LINE;
+        let columns = columns(methods.len() as u32 + 1, cell);
+        let rows = (methods.len() as u32 + 1).div_ceil(columns);
+        let place = |i: usize| (MARGIN + i as u32 % columns * (cell.0 + MARGIN), head + MARGIN + i as u32 / columns * (cell.1 + MARGIN));
+
+        let lines = [
+            format!("{}; best image MSE first", self.subtitle),
+            format!("crop: the marked {} x {} pixels, where methods differ most", crop.width, crop.height),
+        ];
+        let needed = lines.iter().map(|l| text::width(l, 2)).chain([text::width(&self.scene, 3)]).max().unwrap_or(0);
+        let width = (MARGIN + columns * (cell.0 + MARGIN)).max(needed.min(4096) + 2 * MARGIN);
+        let mut sheet = RgbImage::from_pixel(width, head + MARGIN + rows * (cell.1 + MARGIN), PAGE);
+        text::draw(&mut sheet, MARGIN, MARGIN, 3, INK, &self.scene);
+        for (i, line) in lines.iter().enumerate() {
+            text::draw(&mut sheet, MARGIN, MARGIN + 3 * text::HEIGHT + GAP + 4 + i as u32 * LINE, 2, FAINT, line);
+        }
+
+        let name = [vec!["ground truth".to_owned()], vec![String::new(); name_lines as usize - 1]].concat();
+        let mut draw = Cell { sheet: &mut sheet, at: place(0), panel, half, name_lines };
+        draw.label(&name, [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)]);
+        draw.image(&self.truth, crop);
+        draw.scale(top);
+        for (i, ((result, shown, map), name)) in methods.into_iter().zip(&names).enumerate() {
+            let mut draw = Cell { sheet: &mut sheet, at: place(i + 1), panel, half, name_lines };
+            draw.label(name, numbers(result));
+            draw.image(shown, crop);
+            draw.map(map, top);
+        }
+        Ok(sheet)
+    }
+
+    /// Where the sum of all FLIP maps over a rectangle of the crop's size is greatest.
+    fn crop(&self) -> Crop {
+        let (width, height) = self.truth.full.dimensions();
+        let side = |whole: u32| whole.div_ceil(CROP).max(8).min(whole);
+        let (w, h) = (side(width), side(height));
+        // Sums over all pixels above and to the left.
+        let stride = width as usize + 1;
+        let mut sums = vec![0.0f64; stride * (height as usize + 1)];
+        for y in 0..height as usize {
+            let mut row = 0.0;
+            for x in 0..width as usize {
+                let here = self.methods.iter().map(|(.., map)| f64::from(map.values()[y * width as usize + x]));
+                row += here.map(|v| if v.is_finite() { v } else { 1.0 }).sum::<f64>();
+                sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + row;
+            }
+        }
+        let sum = |x: u32, y: u32| {
+            let at = |x: u32, y: u32| sums[y as usize * stride + x as usize];
+            at(x + w, y + h) - at(x, y + h) - at(x + w, y) + at(x, y)
+        };
+        let mut best = (0, 0);
+        let mut greatest = f64::NEG_INFINITY;
+        for (y, x) in (0..=height - h).flat_map(|y| (0..=width - w).map(move |x| (y, x))) {
+            let here = sum(x, y);
+            if here > greatest {
+                (best, greatest) = ((x, y), here);
+            }
+        }
+        Crop { x: best.0, y: best.1, width: w, height: h }
+    }
+
+    /// The FLIP value that is drawn brightest: what 99 % of a middling method's pixels stay below, rounded up to 1, 2 or 5 times a power of ten.
+    fn scale(&self) -> f64 {
+        let mut high: Vec<f32> = self
+            .methods
+            .iter()
+            .map(|(.., map)| {
+                let mut values: Vec<f32> = map.values().iter().copied().filter(|v| v.is_finite()).collect();
+                let Some(last) = values.len().checked_sub(1) else { return 1.0 };
+                *values.select_nth_unstable_by(last * 99 / 100, f32::total_cmp).1
+            })
+            .collect();
+        let middle = high.len() / 2;
+        let high = f64::from(*high.select_nth_unstable_by(middle, f32::total_cmp).1);
+        let steps = (-3..0).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
+        steps.into_iter().find(|&step| step >= high).unwrap_or(1.0)
+    }
+}
+
+/// A method's name in at most two lines.
+fn shortened(name: &str) -> Vec<String> {
+    let mut lines = text::wrap(name, 2, PANEL);
+    if lines.len() > 2 {
+        lines.truncate(2);
+        let second = &mut lines[1];
+        second.push_str("..");
+        while text::width(second, 2) > PANEL && second.chars().count() > 2 {
+            let kept = second.chars().count() - 3;
+            *second = second.chars().take(kept).collect::<String>() + "..";
+        }
+    }
+    lines
+}
+
+/// The two lines of numbers below a method's name.
+fn numbers(result: &MethodResult) -> [(String, Rgb<u8>); 2] {
+    let short = |v: Option<f64>| match v {
+        None => "-".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(v) if v.is_finite() => format!("{v:.2e}"),
+        Some(_) => "NaN".to_owned(),
+    };
+    let flip = result.flip_mean.map_or("-".to_owned(), |v| if v.is_finite() { format!("{v:.4}") } else { "NaN".to_owned() });
+    let first = (format!("MSE {}  FLIP {flip}", short(result.image_mse)), INK);
+    let bad = result.nonfinite.max(result.image_nonfinite.unwrap_or(0));
+    let second = match (bad, result.transmittance_mse) {
+        (0, None) => ("weights are not T".to_owned(), FAINT),
+        (0, mse) => (format!("T-MSE {}", short(mse)), FAINT),
+        (bad, _) => (format!("{bad} values not finite"), ALARM),
+    };
+    [first, second]
+}
+
+/// Number of columns that brings a sheet of so many cells closest to three by two.
+fn columns(cells: u32, cell: (u32, u32)) -> u32 {
+    let shape = |columns: u32| {
+        let (w, h) = (columns * (cell.0 + MARGIN), cells.div_ceil(columns) * (cell.1 + MARGIN));
+        (f64::from(w) / f64::from(h) / 1.5).ln().abs()
+    };
+    (1..=cells).min_by(|&a, &b| shape(a).total_cmp(&shape(b))).unwrap_or(1)
+}
+
+/// Size of an image that is scaled to fit a square.
+fn fit(width: u32, height: u32, side: u32) -> (u32, u32) {
+    let scaled = |v: u32| ((u64::from(v) * u64::from(side)) / u64::from(width.max(height))).max(1) as u32;
+    (scaled(width), scaled(height))
+}
+
+/// An image at another size: the mean over the area that each new pixel covers.
+fn resample<const C: usize>(pixels: &[[f64; C]], width: u32, size: (u32, u32)) -> Vec<[f64; C]> {
+    let height = (pixels.len() / width as usize) as u32;
+    let (across, down) = (covers(width, size.0), covers(height, size.1));
+    let mut out = Vec::with_capacity(size.0 as usize * size.1 as usize);
+    for down in &down {
+        for across in &across {
+            let mut sum = [0.0; C];
+            for &(y, wy) in down {
+                for &(x, wx) in across {
+                    let pixel = &pixels[y * width as usize + x];
+                    sum.iter_mut().zip(pixel).for_each(|(s, v)| *s += wx * wy * v);
+                }
+            }
+            out.push(sum);
+        }
+    }
+    out
+}
+
+/// Which of `from` pixels each of `to` covers, and by which share of its own extent.
+fn covers(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
+    let step = f64::from(from) / f64::from(to);
+    let one = |i: u32| {
+        let (start, end) = (f64::from(i) * step, (f64::from(i + 1) * step).min(f64::from(from)));
+        let pixels = (start as u32).min(from - 1)..(end.ceil() as u32).min(from);
+        let shares = pixels.map(|p| (p as usize, (end.min(f64::from(p + 1)) - start.max(f64::from(p))) / (end - start)));
+        shares.filter(|s| s.1 > 0.0).collect()
+    };
+    (0..to).map(one).collect()
+}
+
+/// Draws one cell of a sheet, from top to bottom: name, numbers, image, and below it the map (or the scale) beside the crop.
+struct Cell<'a> {
+    sheet: &'a mut RgbImage,
+    at: (u32, u32),
+    panel: (u32, u32),
+    half: (u32, u32),
+    name_lines: u32,
+}
+
+impl Cell<'_> {
+    fn label(&mut self, name: &[String], numbers: [(String, Rgb<u8>); 2]) {
+        let (x, mut y) = self.at;
+        for line in name {
+            text::draw(self.sheet, x, y, 2, INK, line);
+            // Letters in bold: drawn twice, a pixel apart.
+            text::draw(self.sheet, x + 1, y, 2, INK, line);
+            y += LINE;
+        }
+        for (line, color) in &numbers {
+            text::draw(self.sheet, x, y, 2, *color, line);
+            y += LINE;
+        }
+    }
+
+    fn top_of_image(&self) -> u32 {
+        self.at.1 + (self.name_lines + 2) * LINE + GAP
+    }
+
+    fn image(&mut self, shown: &Shown, crop: Crop) {
+        let (width, height) = self.panel;
+        let (x, y) = (self.at.0 + (PANEL - width) / 2, self.top_of_image());
+        self.paste(x, y, &shown.panel);
+        // The crop's place: a light line around a dark one, to be seen on anything.
+        let full = shown.full.dimensions();
+        let on_panel = |v: u32, panel: u32, full: u32| (u64::from(v) * u64::from(panel) / u64::from(full)) as u32;
+        let (left, right) = (on_panel(crop.x, width, full.0), on_panel(crop.x + crop.width, width, full.0));
+        let (top, bottom) = (on_panel(crop.y, height, full.1), on_panel(crop.y + crop.height, height, full.1));
+        let size = (right.saturating_sub(left), bottom.saturating_sub(top));
+        self.outline((x + left, y + top), size, Rgb([20; 3]));
+        if size.0 > 2 && size.1 > 2 {
+            self.outline((x + left + 1, y + top + 1), (size.0 - 2, size.1 - 2), Rgb([255; 3]));
+        }
+
+        let (half, from) = (self.half, &shown.full);
+        let place = |i: u32, size: u32, crop: u32| (u64::from(i) * u64::from(crop) / u64::from(size)) as u32;
+        let enlarged =
+            RgbImage::from_fn(half.0, half.1, |i, j| *from.get_pixel(crop.x + place(i, half.0, crop.width), crop.y + place(j, half.1, crop.height)));
+        self.lower(1, &enlarged, "crop");
+    }
+
+    fn map(&mut self, map: &FlipMap, top: f64) {
+        let values: Vec<[f64; 1]> = map.values().iter().map(|&v| [f64::from(v)]).collect();
+        let small = resample(&values, map.width(), self.half);
+        let shown = picture(self.half.0, self.half.1, |i| heat(small[i][0] / top));
+        self.lower(0, &shown, "FLIP");
+    }
+
+    /// The colour scale of all maps, where the maps of the other cells stand.
+    fn scale(&mut self, top: f64) {
+        let (x, y) = (self.at.0, self.top_of_image() + self.panel.1 + GAP);
+        let width = (PANEL - GAP) / 2;
+        let bar = picture(width, 20.min(self.half.1), |i| heat((i as u32 % width) as f64 / f64::from(width - 1)));
+        self.paste(x, y, &bar);
+        let below = y + bar.height() + 6;
+        let end = format!("{top}");
+        text::draw(self.sheet, x, below, 2, INK, "0");
+        text::draw(self.sheet, x + width - text::width(&end, 2), below, 2, INK, &end);
+        text::draw(self.sheet, x, below + LINE, 2, FAINT, "FLIP, all maps");
+    }
+
+    /// Draws one of the two pictures below the image, with a caption.
+    fn lower(&mut self, column: u32, picture: &RgbImage, caption: &str) {
+        let column_width = (PANEL - GAP) / 2;
+        let x = self.at.0 + column * (column_width + GAP);
+        let y = self.top_of_image() + self.panel.1 + GAP;
+        self.paste(x + (column_width - picture.width()) / 2, y, picture);
+        text::draw(self.sheet, x, y + picture.height() + 6, 2, FAINT, caption);
+    }
+
+    /// Copies a picture, with a thin frame around it.
+    fn paste(&mut self, x: u32, y: u32, picture: &RgbImage) {
+        let (width, height) = picture.dimensions();
+        self.outline((x - 1, y - 1), (width + 2, height + 2), FRAME);
+        for (i, j, &pixel) in picture.enumerate_pixels() {
+            self.sheet.put_pixel(x + i, y + j, pixel);
+        }
+    }
+
+    fn outline(&mut self, (x, y): (u32, u32), (width, height): (u32, u32), color: Rgb<u8>) {
+        fill(self.sheet, x, y, width, 1, color);
+        fill(self.sheet, x, (y + height).saturating_sub(1), width, 1, color);
+        fill(self.sheet, x, y, 1, height, color);
+        fill(self.sheet, (x + width).saturating_sub(1), y, 1, height, color);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evaluate::Truth;
+    use crate::evaluate::judge::tests::{Shifted, colored_list};
+    use crate::oit::Context;
+
+    /// Encoding of 0, of the linear part's end, of a middle grey and of 1; control: without encoding the grey is another.
+    #[test]
+    fn display_encodes_clamps_and_marks() {
+        assert_eq!(display([0.0, 0.0031308, 1.0]), [0, 10, 255]);
+        // 18 % grey is 118 in sRGB.
+        assert_eq!(display([0.18, 2.0, -1.0]), [118, 255, 0]);
+        assert_ne!((255.0f64 * 0.18).round() as u8, 118);
+        assert_eq!(display([0.5, f64::NAN, 0.5]), NOT_FINITE);
+        assert_eq!(display([f64::INFINITY, 0.0, 0.0]), NOT_FINITE);
+    }
+
+    /// Greater errors are lighter, in even the smallest steps that 8 bits show.
+    #[test]
+    fn heat_grows_lighter() {
+        let luma = |e: f64| heat(e).iter().zip([0.2126, 0.7152, 0.0722]).map(|(&v, w)| f64::from(v) * w).sum::<f64>();
+        assert!((0..200).all(|i| luma(f64::from(i + 1) / 200.0) >= luma(f64::from(i) / 200.0) - 0.5));
+        assert!(luma(1.0) > luma(0.0) + 200.0);
+        assert_eq!((heat(7.0), heat(-1.0), heat(f64::NAN)), (heat(1.0), heat(0.0), NOT_FINITE));
+    }
+
+    /// The mean survives at any size; control: it is the mean of the covered area and no single pixel's value.
+    #[test]
+    fn resampling_takes_means() {
+        let pixels: Vec<[f64; 1]> = (0..12).map(|i| [f64::from(i * i % 7)]).collect();
+        let mean = |p: &[[f64; 1]]| p.iter().map(|p| p[0]).sum::<f64>() / p.len() as f64;
+        for size in [(4, 3), (2, 1), (1, 1), (7, 5), (8, 6)] {
+            let resampled = resample(&pixels, 4, size);
+            assert_eq!(resampled.len() as u32, size.0 * size.1);
+            assert!((mean(&resampled) - mean(&pixels)).abs() < 1e-12, "{size:?}");
+        }
+        assert_eq!(resample(&pixels, 4, (4, 3)), pixels);
+        assert_ne!(resample(&pixels, 4, (1, 1))[0], pixels[0]);
+    }
+
+    #[test]
+    fn names_become_safe_file_names() {
+        assert_eq!(file_stem("moment-power-4:nlqm+own"), "moment-power-4-nlqm-own");
+        assert_eq!(file_stem("neural:../models/m.json"), "neural-..-models-m.json");
+        assert_eq!((file_stem("../.."), file_stem("")), ("method".to_owned(), "method".to_owned()));
+    }
+
+    fn sheet(list: &FragmentList, offsets: &[f64]) -> Sheet {
+        let truth = Truth::new(list, [1.0; 3]);
+        let mut sheet = Sheet::new("discs", list, truth.image().unwrap());
+        for &offset in offsets {
+            sheet.add(&truth.judge(&Shifted(offset), Context::default()).unwrap()).unwrap();
+        }
+        sheet
+    }
+
+    /// Pictures come back from their files as they were; the sheet's crop lies where the methods differ.
+    #[test]
+    fn files_and_sheet() {
+        let folder = tempfile::tempdir().unwrap();
+        let list = colored_list(64, 48);
+        let truth = Truth::new(&list, [1.0; 3]);
+        let judged = truth.judge(&Shifted(0.3), Context::default()).unwrap();
+        write_method(folder.path(), "off", Replace::No, &judged).unwrap();
+        let read = |name: &str| {
+            let bytes = std::fs::read(folder.path().join(name)).unwrap();
+            ::image::load_from_memory_with_format(&bytes, ::image::ImageFormat::Png).unwrap().into_rgb8()
+        };
+        let (image, map) = judged.picture.as_ref().unwrap();
+        assert_eq!(read("off.png"), image_picture(image));
+        assert_eq!(read("off.flip.png").get_pixel(32, 24).0, heat(map.values()[24 * 64 + 32].into()));
+        assert!(matches!(write_method(folder.path(), "off", Replace::No, &judged), Err(EvaluateError::File(FileError::Exists { .. }))));
+
+        let sheet = sheet(&list, &[0.3, 0.0]);
+        sheet.write(&folder.path().join("sheet.png"), Replace::No).unwrap();
+        let crop = sheet.crop();
+        let mean = |x0: u32, y0: u32, w: u32, h: u32| {
+            let values = (y0..y0 + h).flat_map(|y| (x0..x0 + w).map(move |x| (y * 64 + x) as usize));
+            values.map(|i| f64::from(map.values()[i])).sum::<f64>() / f64::from(w * h)
+        };
+        assert_eq!((crop.width, crop.height), (8, 8));
+        assert!(mean(crop.x, crop.y, 8, 8) > 1.5 * mean(0, 0, 64, 48));
+        let picture = read("sheet.png");
+        assert_eq!(picture, sheet.render().unwrap());
+        // Something of every cell is on the page: three columns of ink side by side, and no magenta.
+        assert!(picture.pixels().all(|p| p.0 != NOT_FINITE) && picture.pixels().any(|p| *p != PAGE));
+    }
+
+    /// Odd shapes, a method that fails everywhere, and names of any length.
+    #[test]
+    fn any_size_and_any_name_make_a_sheet() {
+        for (width, height) in [(1, 1), (1, 200), (700, 2), (9, 7)] {
+            let picture = sheet(&colored_list(width, height), &[0.2, f64::NAN, 0.1]).render().unwrap();
+            assert!(picture.width() > PANEL && picture.height() > MARGIN, "{width} x {height}");
+        }
+        let alarmed = sheet(&colored_list(32, 32), &[f64::NAN]).render().unwrap();
+        assert!(alarmed.pixels().any(|p| *p == ALARM) && alarmed.pixels().any(|p| p.0 == NOT_FINITE));
+        let lines = shortened(&"a-very-long-name".repeat(20));
+        assert!(lines.len() == 2 && lines.iter().all(|l| text::width(l, 2) <= PANEL) && lines[1].ends_with(".."), "{lines:?}");
+    }
+
+    #[test]
+    fn sheets_refuse_what_they_cannot_show() {
+        let list = colored_list(8, 6);
+        let mut sheet = sheet(&list, &[]);
+        assert!(matches!(sheet.render(), Err(EvaluateError::EmptySheet)));
+        let other = colored_list(6, 8);
+        let judged = Truth::new(&other, [1.0; 3]).judge(&Shifted(0.1), Context::default()).unwrap();
+        assert!(sheet.add(&judged).unwrap_err().to_string().contains("6 x 8"));
+        let missing = Truth::new(&other, [1.0; 3]).judge(&Shifted(0.1), Context::default()).map(|j| Judged { picture: None, ..j }).unwrap();
+        sheet.add(&missing).unwrap();
+        assert!(sheet.methods.is_empty());
+    }
+}
