@@ -211,7 +211,7 @@ impl Observer {
             }
             for (x, out) in out.iter_mut().enumerate() {
                 let blue_yellow = self.mix[0] * sums[2][x] + self.mix[1] * sums[3][x];
-                out.lab = self.lab(self.from_opponent([sums[0][x], sums[1][x], blue_yellow]));
+                out.lab = self.lab(self.linear([sums[0][x], sums[1][x], blue_yellow]));
                 // The detectors work on lightness from 0 to 1; its offset drops out, being constant.
                 out.edge = sums[4][x].hypot(sums[5][x]) / 116.0;
                 out.point = sums[6][x].hypot(sums[7][x]) / 116.0;
@@ -240,7 +240,7 @@ impl Observer {
     }
 
     /// YCxCz to linear RGB, kept within [0, 1].
-    fn from_opponent(&self, [lightness, red_green, blue_yellow]: [f64; 3]) -> [f64; 3] {
+    fn linear(&self, [lightness, red_green, blue_yellow]: [f64; 3]) -> [f64; 3] {
         let y = (lightness + 16.0) / 116.0;
         let xyz = [(y + red_green / 500.0) * self.white[0], y * self.white[1], (y - blue_yellow / 200.0) * self.white[2]];
         apply(&self.from_xyz, xyz).map(|v| v.clamp(0.0, 1.0))

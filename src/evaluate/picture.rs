@@ -105,6 +105,7 @@ const CROP: u32 = 8;
 
 const PAGE: Rgb<u8> = Rgb([245, 245, 247]);
 const INK: Rgb<u8> = Rgb([22, 22, 28]);
+const NAME: Rgb<u8> = Rgb([14, 66, 150]);
 const FAINT: Rgb<u8> = Rgb([98, 98, 110]);
 const FRAME: Rgb<u8> = Rgb([186, 186, 194]);
 const ALARM: Rgb<u8> = Rgb([190, 0, 60]);
@@ -205,9 +206,8 @@ impl Sheet {
             text::draw(&mut sheet, MARGIN, MARGIN + 3 * text::HEIGHT + GAP + 4 + i as u32 * LINE, 2, FAINT, line);
         }
 
-        let name = [vec!["ground truth".to_owned()], vec![String::new(); name_lines as usize - 1]].concat();
         let mut draw = Cell { sheet: &mut sheet, at: place(0), panel, half, name_lines };
-        draw.label(&name, [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)]);
+        draw.label(&["ground truth".to_owned()], [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)]);
         draw.image(&self.truth, crop);
         draw.scale(top);
         for (i, ((result, shown, map), name)) in methods.into_iter().zip(&names).enumerate() {
@@ -291,7 +291,11 @@ fn numbers(result: &MethodResult) -> [(String, Rgb<u8>); 2] {
         Some(v) if v.is_finite() => format!("{v:.2e}"),
         Some(_) => "NaN".to_owned(),
     };
-    let flip = result.flip_mean.map_or("-".to_owned(), |v| if v.is_finite() { format!("{v:.4}") } else { "NaN".to_owned() });
+    let flip = result.flip_mean.map_or("-".to_owned(), |v| match v {
+        0.0 => "0".to_owned(),
+        v if v.is_finite() => format!("{v:.4}"),
+        _ => "NaN".to_owned(),
+    });
     let first = (format!("MSE {}  FLIP {flip}", short(result.image_mse)), INK);
     let bad = result.nonfinite.max(result.image_nonfinite.unwrap_or(0));
     let second = match (bad, result.transmittance_mse) {
@@ -302,11 +306,12 @@ fn numbers(result: &MethodResult) -> [(String, Rgb<u8>); 2] {
     [first, second]
 }
 
-/// Number of columns that brings a sheet of so many cells closest to three by two.
+/// Number of columns that brings a sheet of so many cells close to three by two and leaves few places empty.
 fn columns(cells: u32, cell: (u32, u32)) -> u32 {
     let shape = |columns: u32| {
         let (w, h) = (columns * (cell.0 + MARGIN), cells.div_ceil(columns) * (cell.1 + MARGIN));
-        (f64::from(w) / f64::from(h) / 1.5).ln().abs()
+        let places = columns * cells.div_ceil(columns);
+        (f64::from(w) / f64::from(h) / 1.5).ln().abs() + f64::from(places - cells) / f64::from(places)
     };
     (1..=cells).min_by(|&a, &b| shape(a).total_cmp(&shape(b))).unwrap_or(1)
 }
@@ -360,11 +365,11 @@ struct Cell<'a> {
 
 impl Cell<'_> {
     fn label(&mut self, name: &[String], numbers: [(String, Rgb<u8>); 2]) {
-        let (x, mut y) = self.at;
+        let x = self.at.0;
+        // Short names stand low, so that all numbers of a row are at one height.
+        let mut y = self.at.1 + self.name_lines.saturating_sub(name.len() as u32) * LINE;
         for line in name {
-            text::draw(self.sheet, x, y, 2, INK, line);
-            // Letters in bold: drawn twice, a pixel apart.
-            text::draw(self.sheet, x + 1, y, 2, INK, line);
+            text::draw(self.sheet, x, y, 2, NAME, line);
             y += LINE;
         }
         for (line, color) in &numbers {
@@ -413,10 +418,10 @@ impl Cell<'_> {
         let bar = picture(width, 20.min(self.half.1), |i| heat((i as u32 % width) as f64 / f64::from(width - 1)));
         self.paste(x, y, &bar);
         let below = y + bar.height() + 6;
-        let end = format!("{top}");
+        let end = if top < 1.0 { format!("{top}+") } else { format!("{top}") };
         text::draw(self.sheet, x, below, 2, INK, "0");
         text::draw(self.sheet, x + width - text::width(&end, 2), below, 2, INK, &end);
-        text::draw(self.sheet, x, below + LINE, 2, FAINT, "FLIP, all maps");
+        text::draw(self.sheet, x, below + LINE, 2, FAINT, "FLIP scale");
     }
 
     /// Draws one of the two pictures below the image, with a caption.
@@ -530,7 +535,7 @@ mod tests {
         assert!(mean(crop.x, crop.y, 8, 8) > 1.5 * mean(0, 0, 64, 48));
         let picture = read("sheet.png");
         assert_eq!(picture, sheet.render().unwrap());
-        // Something of every cell is on the page: three columns of ink side by side, and no magenta.
+        // All is finite, so nothing is magenta.
         assert!(picture.pixels().all(|p| p.0 != NOT_FINITE) && picture.pixels().any(|p| *p != PAGE));
     }
 
