@@ -68,7 +68,7 @@ fn bracketed<R: Real>(c: &[R], roots: &mut [R; MOST_ROOTS]) {
             i if i == degree - 1 => high,
             _ => (low + high) * R::from_f64(0.5),
         };
-        let rising = (c[degree] > R::ZERO) == ((degree - 1 - i) % 2 == 0);
+        let rising = (c[degree] > R::ZERO) == (degree - 1 - i).is_multiple_of(2);
         roots[i] = bracketed_root(c, low, high, start, rising);
     }
 }

@@ -1,7 +1,7 @@
 //! Moment-based transparency with power moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, PerPixel, Sample};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{Storage, through_nlqm, through_unorm16};
@@ -123,6 +123,10 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
 
     fn transmittance(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
         curve.transmittance(z, OVERESTIMATION)
+    }
+
+    fn transmittance_of_others(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OTHERS_OVERESTIMATION)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Moment-based transparency with trigonometric moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, PerPixel, Sample};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::Storage;
@@ -89,5 +89,9 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
 
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
         curve.transmittance(z, OVERESTIMATION)
+    }
+
+    fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OTHERS_OVERESTIMATION)
     }
 }
