@@ -1,10 +1,16 @@
-//! Numbers only, no graphics words: precision-generic arithmetic, random streams, tolerances, hashing and safe file writing.
+//! Numbers only, no graphics words: precision-generic arithmetic, orthogonal polynomials, roots, storage rounding, random streams, tolerances,
+//! hashing and safe file writing.
 
+pub mod complex;
 pub mod digest;
 pub mod file;
 pub mod npy;
+pub mod orthogonal;
+pub mod quantise;
 pub mod real;
 pub mod rng;
+pub mod roots;
 pub mod tolerance;
+pub mod unit_circle;
 
 pub use real::Real;

@@ -28,6 +28,8 @@ pub trait Real:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
+    /// Distance from 1 to the next greater number.
+    const EPSILON: Self;
     /// Rounds an `f64` to this precision.
     fn from_f64(x: f64) -> Self;
     /// Widens (or rounds) an `f32` to this precision; exact for both.
@@ -38,6 +40,8 @@ pub trait Real:
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
+    /// Square root, correctly rounded; NaN of a negative number.
+    fn sqrt(self) -> Self;
     /// The lesser of two numbers; `other` where `self` is NaN.
     fn min(self, other: Self) -> Self;
     /// The greater of two numbers; `other` where `self` is NaN.
@@ -60,6 +64,7 @@ macro_rules! real {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const EPSILON: Self = <$t>::EPSILON;
             #[inline]
             fn from_f64(x: f64) -> Self {
                 x as $t
@@ -79,6 +84,11 @@ macro_rules! real {
             #[inline]
             fn ln(self) -> Self {
                 $ln(self)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                // IEEE 754 rounds square roots correctly: the platform's is the same everywhere.
+                <$t>::sqrt(self)
             }
             #[inline]
             fn min(self, other: Self) -> Self {

@@ -1,6 +1,16 @@
 //! Transparency methods: each adds something up per pixel, weights each fragment by it, and composites.
 
+pub mod fourier_opacity;
+pub mod low_resolution_moments;
+mod moment_based;
+pub mod moment_power;
+pub mod moment_transparency;
+pub mod moment_trig;
 pub mod neural;
+pub mod registry;
+pub mod two_moment_passes;
+
+pub use registry::{ParseError, all_names, parse};
 
 use crate::pixel::{CameraPlanes, DepthError, FragmentList, Pixel, abuffer};
 use std::convert::Infallible;
@@ -31,6 +41,12 @@ pub enum MethodError {
         method: String,
         /// What is wrong.
         source: DepthError,
+    },
+    /// The list is no image, and the method looks at neighbouring pixels.
+    #[error("{method} looks at neighbouring pixels, and the fragment list has no width and height; write both into its file")]
+    NoSize {
+        /// The method.
+        method: String,
     },
 }
 
@@ -77,7 +93,15 @@ pub trait Accumulated: Send + Sync {
 /// # Panics
 /// If the pixel has fragments and no colours.
 pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background: [f64; 3]) -> [f64; 3] {
-    let behind = libm::exp(-abuffer::total_absorbance(pixel));
+    composite_with_total(pixel, transmittances, abuffer::total_absorbance(pixel), background)
+}
+
+/// [`composite_normalised`] with the total absorbance b0 as a method has kept it.
+///
+/// # Panics
+/// If the pixel has fragments and no colours.
+pub fn composite_with_total(pixel: Pixel<'_>, transmittances: &[f64], total_absorbance: f64, background: [f64; 3]) -> [f64; 3] {
+    let behind = libm::exp(-total_absorbance);
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
     let mut total = 0.0;

@@ -1,0 +1,56 @@
+//! What storage does to a number: half precision and 16-bit fixed point.
+
+/// Nearest half-precision number, ties to even; ±∞ beyond 65520, NaN stays NaN.
+pub fn round_f16(x: f64) -> f64 {
+    if x == 0.0 || !x.is_finite() {
+        return x;
+    }
+    // Exponent of x, at least that of the least normal half; a half has 10 bits after the point.
+    let exponent = (((x.to_bits() >> 52) & 0x7ff) as i32 - 1023).max(-14);
+    let unit = f64::from_bits(((exponent - 10 + 1023) as u64) << 52);
+    let rounded = (x / unit).round_ties_even() * unit;
+    if rounded.abs() >= 65520.0 { f64::INFINITY.copysign(x) } else { rounded }
+}
+
+/// Nearest 16-bit fraction k/65535 of [0, 1]; numbers outside are clamped, NaN stays NaN.
+pub fn round_unorm16(x: f64) -> f64 {
+    (x.clamp(0.0, 1.0) * 65535.0).round() / 65535.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves() {
+        // Exact, halfway to even, greatest, overflow, least subnormal, underflow.
+        for (x, expected) in [
+            (1.0, 1.0),
+            (-0.1, -0.0999755859375),
+            (2049.0, 2048.0),
+            (2051.0, 2052.0),
+            (65504.0, 65504.0),
+            (65519.0, 65504.0),
+            (65520.0, f64::INFINITY),
+            (-1e9, f64::NEG_INFINITY),
+            (2f64.powi(-24), 2f64.powi(-24)),
+            (2f64.powi(-25), 0.0),
+            (1e-300, 0.0),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(round_f16(x), expected, "{x}");
+        }
+        assert!(round_f16(f64::NAN).is_nan());
+        for bits in 0..1u32 << 10 {
+            let half = f64::from(1.0 + bits as f32 / 1024.0);
+            assert_eq!(round_f16(half), half);
+        }
+    }
+
+    #[test]
+    fn fixed_point() {
+        assert_eq!((round_unorm16(-1.0), round_unorm16(0.0), round_unorm16(1.0), round_unorm16(7.0)), (0.0, 0.0, 1.0, 1.0));
+        assert!((round_unorm16(0.3) - 0.3).abs() <= 0.5 / 65535.0 && round_unorm16(0.3) != 0.3);
+        assert!(round_unorm16(f64::NAN).is_nan());
+    }
+}

@@ -1,0 +1,149 @@
+//! What the moment-based methods share: a pixel's moments in pass 1, a curve of transmittance over depth in pass 2, and the exact rules of `+own`.
+
+use super::{Accumulated, Context, Method, MethodError, composite_with_total};
+use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
+
+/// Bits of the colour target that the composite reads: four half-precision channels.
+///
+/// # Source
+/// MKKP18 Sec. 7.
+pub(super) const COLOUR_BITS: u32 = 64;
+
+/// Bits that `+own` keeps besides: least and greatest view depth in single precision.
+pub(super) const ENDS_BITS: u32 = 64;
+
+/// Share of the total absorbance below which nothing but the fragment itself is thought to be there.
+pub(super) const NOTHING_ELSE: f64 = 1e-6;
+
+/// A fragment as a moment-based method sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sample {
+    /// Its depth.
+    pub z: MomentDepth,
+    /// Its absorbance.
+    pub absorbance: f64,
+}
+
+/// A method that keeps numbers of each pixel and turns them into transmittance over depth.
+pub(super) trait MomentBased: Send + Sync {
+    /// What is kept of a pixel.
+    type Moments: Copy + Send + Sync;
+    /// Ready to be asked.
+    type Curve;
+
+    fn name(&self) -> String;
+    /// Without the colour target.
+    fn moment_bits(&self) -> u32;
+    fn accumulate(&self, samples: &[Sample]) -> Self::Moments;
+    /// Total absorbance as kept.
+    fn total(&self, moments: &Self::Moments) -> f64;
+    /// The same moments without one of the fragments.
+    fn without(&self, moments: &Self::Moments, own: Sample) -> Self::Moments;
+    fn curve(&self, moments: &Self::Moments) -> Self::Curve;
+    fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64;
+    /// From the curve of the other fragments.
+    fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
+        self.transmittance(curve, z)
+    }
+}
+
+/// Overestimation where the fragment's own absorbance is gone: the middle of the bounds, for nothing is known to lie at the depth itself.
+///
+/// On the paper's distribution (moments of 2w − 1) four moments then have a T-MSE of 4.4e-3, against 9.1e-3 with 0.25.
+pub(super) const OTHERS_OVERESTIMATION: f64 = 0.5;
+
+/// A moment-based method on every pixel by itself, with or without the fragment's own absorbance.
+pub(super) struct PerPixel<F> {
+    pub(super) family: F,
+    pub(super) own: bool,
+}
+
+/// The log warp between the given depths or those of the list.
+pub(super) fn warp(name: &dyn Fn() -> String, list: &FragmentList, context: &Context) -> Result<LogWarp, MethodError> {
+    // A list without fragments asks for no depth.
+    let (v0, v1) = context.depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
+    LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|source: DepthError| MethodError::Depth { method: name(), source })
+}
+
+/// Samples of a pixel.
+pub(super) fn samples(warp: &LogWarp, pixel: Pixel<'_>) -> Vec<Sample> {
+    let sample = |(&v, &alpha): (&f32, &f32)| Sample { z: warp.moment(ViewZ(v.into())), absorbance: absorbance(alpha) };
+    pixel.view_z.iter().zip(pixel.alpha).map(sample).collect()
+}
+
+/// The exact answer about a fragment where there is one: nearest, alone, farthest, in this order, decided on view depth bit for bit.
+///
+/// # Domain
+/// `ends`: least and greatest view depth of the pixel; `total`: its absorbance.
+pub(super) fn exact(view_z: f32, ends: (f32, f32), absorbance: f64, total: f64) -> Option<f64> {
+    let others = (total - absorbance).max(0.0);
+    if view_z == ends.0 || others <= NOTHING_ELSE * total {
+        Some(1.0)
+    } else if view_z == ends.1 {
+        Some(libm::exp(-others))
+    } else {
+        None
+    }
+}
+
+/// Least and greatest view depth of a pixel.
+pub(super) fn ends(pixel: Pixel<'_>) -> (f32, f32) {
+    pixel.view_z.iter().fold((f32::INFINITY, 0.0), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+}
+
+impl<F: MomentBased> Method for PerPixel<F> {
+    fn name(&self) -> String {
+        format!("{}{}", self.family.name(), if self.own { "+own" } else { "" })
+    }
+
+    fn bits_per_pixel(&self) -> u32 {
+        self.family.moment_bits() + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
+    }
+
+    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+        use rayon::prelude::*;
+        let warp = warp(&|| self.name(), list, &context)?;
+        let moments = (0..list.pixels()).into_par_iter().with_min_len(64);
+        let moments = moments.map(|p| self.family.accumulate(&samples(&warp, list.pixel(p)))).collect();
+        Ok(Box::new(Pixels { method: self, list, warp, moments }))
+    }
+}
+
+struct Pixels<'a, F: MomentBased> {
+    method: &'a PerPixel<F>,
+    list: &'a FragmentList,
+    warp: LogWarp,
+    moments: Vec<F::Moments>,
+}
+
+impl<F: MomentBased> Accumulated for Pixels<'_, F> {
+    fn weights(&self, p: usize, out: &mut [f64]) {
+        let (pixel, moments, family) = (self.list.pixel(p), &self.moments[p], &self.method.family);
+        let total = family.total(moments);
+        if total == 0.0 {
+            // Nothing absorbs anything.
+            out.fill(1.0);
+            return;
+        }
+        let place = |v: f32| self.warp.moment(ViewZ(v.into()));
+        if !self.method.own {
+            let curve = family.curve(moments);
+            for (out, &v) in out.iter_mut().zip(pixel.view_z) {
+                *out = family.transmittance(&curve, place(v));
+            }
+            return;
+        }
+        let ends = ends(pixel);
+        for ((out, &v), &alpha) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
+            let own = absorbance(alpha);
+            *out = exact(v, ends, own, total).unwrap_or_else(|| {
+                let sample = Sample { z: place(v), absorbance: own };
+                family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z)
+            });
+        }
+    }
+
+    fn composite(&self, pixel: Pixel<'_>, p: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
+        composite_with_total(pixel, weights, self.method.family.total(&self.moments[p]), background)
+    }
+}

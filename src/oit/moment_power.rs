@@ -1,0 +1,136 @@
+//! Moment-based transparency with power moments.
+
+use super::Method;
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::registry::{Arguments, Entry, ParseError};
+use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
+use crate::moments::storage::{Storage, through_nlqm, through_unorm16};
+use crate::numeric::quantise::round_f16;
+use crate::pixel::MomentDepth;
+
+/// Names on the command line.
+pub const ENTRIES: [Entry; 3] = [
+    Entry { head: "moment-power-4", pattern: "moment-power-4[:f32|unorm16|nlqm][+own]", names, build: build::<2, 5> },
+    Entry { head: "moment-power-6", pattern: "moment-power-6[:f32|unorm16|nlqm][+own]", names, build: build::<3, 7> },
+    Entry { head: "moment-power-8", pattern: "moment-power-8[:f32|unorm16|nlqm][+own]", names, build: build::<4, 9> },
+];
+
+fn names(head: &str) -> Vec<String> {
+    ["", ":f32", ":unorm16", ":nlqm"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]).collect()
+}
+
+fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
+    let storage = match arguments.argument {
+        None => Storage::F64,
+        Some("f32") => Storage::F32,
+        Some("unorm16") => Storage::Unorm16,
+        Some("nlqm") => Storage::Nlqm,
+        Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
+    };
+    Ok(Box::new(PerPixel { family: Power::<N, M> { storage }, own: arguments.own }))
+}
+
+/// M − 1 = 2N power moments.
+///
+/// # Source
+/// MKKP18 Sec. 3 and 4.
+struct Power<const N: usize, const M: usize> {
+    storage: Storage,
+}
+
+impl<const N: usize, const M: usize> Power<N, M> {
+    fn bias(&self) -> Bias {
+        match self.storage {
+            Storage::Unorm16 => Bias::sixteen_bits(2 * N),
+            Storage::F64 | Storage::F32 | Storage::Nlqm => Bias::single_precision(2 * N),
+        }
+    }
+}
+
+/// Adds a fragment to moments in any order of storage: Σ A z^k.
+pub(super) fn add<const M: usize>(b: &mut [f64; M], sample: Sample) {
+    let mut term = sample.absorbance;
+    for b in b {
+        *b += term;
+        term *= sample.z.0;
+    }
+}
+
+impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
+    /// b_0..b_2N, not normalised, whatever they were rounded to.
+    type Moments = [f64; M];
+    type Curve = PowerCurve<f64, N>;
+
+    fn name(&self) -> String {
+        format!("moment-power-{}{}", 2 * N, self.storage.suffix())
+    }
+
+    /// MKKP18 Table 1: 160 and 80 bits for four moments, 224 and 112 for six. What is kept in f64 here stands for single precision.
+    fn moment_bits(&self) -> u32 {
+        match self.storage {
+            Storage::F64 | Storage::F32 => 32 * M as u32,
+            Storage::Unorm16 => 16 * M as u32,
+            // Sha18 Table 1: the single-precision target of pass 1 and the quantities beside it.
+            Storage::Nlqm => (32 + 16) * M as u32,
+        }
+    }
+
+    fn accumulate(&self, samples: &[Sample]) -> [f64; M] {
+        let mut b = [0.0; M];
+        for &sample in samples {
+            match self.storage {
+                Storage::F64 | Storage::Nlqm => add(&mut b, sample),
+                Storage::F32 => {
+                    let (z, mut term) = (sample.z.0 as f32, sample.absorbance as f32);
+                    for b in &mut b {
+                        *b = f64::from(*b as f32 + term);
+                        term *= z;
+                    }
+                }
+                Storage::Unorm16 => {
+                    add(&mut b, sample);
+                    if b[0] > 0.0 {
+                        let normalised = through_unorm16(b.map(|x| x / b[0]));
+                        let total = round_f16(b[0]);
+                        b = std::array::from_fn(|k| if k == 0 { total } else { total * normalised[k] });
+                    }
+                }
+            }
+        }
+        if self.storage == Storage::Nlqm {
+            b = scaled(b, round_f16(b[0]));
+        }
+        b
+    }
+
+    fn total(&self, b: &[f64; M]) -> f64 {
+        b[0]
+    }
+
+    fn without(&self, b: &[f64; M], own: Sample) -> [f64; M] {
+        let mut others = *b;
+        add(&mut others, Sample { absorbance: -own.absorbance, ..own });
+        others
+    }
+
+    fn curve(&self, b: &[f64; M]) -> PowerCurve<f64, N> {
+        let bias = self.bias();
+        match self.storage {
+            Storage::Nlqm => PowerCurve::from_parts(b[0], through_nlqm::<N, M>(&bias.apply(b.map(|x| x / b[0])))),
+            _ => PowerCurve::new(b, &bias),
+        }
+    }
+
+    fn transmittance(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OVERESTIMATION)
+    }
+
+    fn transmittance_of_others(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OTHERS_OVERESTIMATION)
+    }
+}
+
+/// The same distribution with another total.
+fn scaled<const M: usize>(b: [f64; M], total: f64) -> [f64; M] {
+    if b[0] > 0.0 { std::array::from_fn(|k| if k == 0 { total } else { b[k] / b[0] * total }) } else { b }
+}

@@ -1,0 +1,97 @@
+//! Moment-based transparency with trigonometric moments.
+
+use super::Method;
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::registry::{Arguments, Entry, ParseError};
+use crate::moments::hamburger::OVERESTIMATION;
+use crate::moments::storage::Storage;
+use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
+use crate::numeric::complex::Complex;
+use crate::numeric::quantise::{round_f16, round_unorm16};
+use crate::pixel::MomentDepth;
+
+/// Names on the command line.
+pub const ENTRIES: [Entry; 3] = [
+    Entry { head: "moment-trig-2", pattern: "moment-trig-2[:f32|unorm16][+own]", names, build: build::<2> },
+    Entry { head: "moment-trig-3", pattern: "moment-trig-3[:f32|unorm16][+own]", names, build: build::<3> },
+    Entry { head: "moment-trig-4", pattern: "moment-trig-4[:f32|unorm16][+own]", names, build: build::<4> },
+];
+
+fn names(head: &str) -> Vec<String> {
+    ["", ":f32", ":unorm16"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]).collect()
+}
+
+fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
+    let storage = match arguments.argument {
+        None => Storage::F64,
+        Some("f32") => Storage::F32,
+        Some("unorm16") => Storage::Unorm16,
+        Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
+    };
+    Ok(Box::new(PerPixel { family: Trigonometric::<M> { storage }, own: arguments.own }))
+}
+
+/// M trigonometric moments.
+///
+/// # Source
+/// MKKP18 Sec. 5.
+struct Trigonometric<const M: usize> {
+    storage: Storage,
+}
+
+impl<const M: usize> MomentBased for Trigonometric<M> {
+    type Moments = TrigonometricMoments<f64, M>;
+    type Curve = TrigonometricCurve<f64, M>;
+
+    fn name(&self) -> String {
+        format!("moment-trig-{M}{}", self.storage.suffix())
+    }
+
+    /// MKKP18 Table 1: 224 and 112 bits for three moments, 288 and 144 for four.
+    fn moment_bits(&self) -> u32 {
+        (if self.storage == Storage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
+    }
+
+    fn accumulate(&self, samples: &[Sample]) -> Self::Moments {
+        let mut b = TrigonometricMoments::ZERO;
+        if self.storage == Storage::F32 {
+            let mut single = TrigonometricMoments::<f32, M>::ZERO;
+            for sample in samples {
+                single.add(sample.z, sample.absorbance as f32);
+            }
+            return TrigonometricMoments { total: single.total.into(), b: single.b.map(|b| Complex::new(b.re.into(), b.im.into())) };
+        }
+        for sample in samples {
+            b.add(sample.z, sample.absorbance);
+            if self.storage == Storage::Unorm16 && b.total > 0.0 {
+                // MKKP18 Sec. 5.3: no transform but the shift to [0, 1].
+                let (before, total) = (b.total, round_f16(b.total));
+                let store = |v: f64| total * (2.0 * round_unorm16(0.5 * v / before + 0.5) - 1.0);
+                b = TrigonometricMoments { total, b: b.b.map(|b| Complex::new(store(b.re), store(b.im))) };
+            }
+        }
+        b
+    }
+
+    fn total(&self, b: &Self::Moments) -> f64 {
+        b.total
+    }
+
+    fn without(&self, b: &Self::Moments, own: Sample) -> Self::Moments {
+        let mut others = *b;
+        others.add(own.z, -own.absorbance);
+        others
+    }
+
+    fn curve(&self, b: &Self::Moments) -> Self::Curve {
+        TrigonometricCurve::new(b, moment_bias(M, self.storage == Storage::Unorm16))
+    }
+
+    fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OVERESTIMATION)
+    }
+
+    fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
+        curve.transmittance(z, OTHERS_OVERESTIMATION)
+    }
+}
