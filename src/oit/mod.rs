@@ -1,8 +1,21 @@
 //! Transparency methods: each adds something up per pixel, weights each fragment by it, and composites.
 
+pub mod abuffer;
+pub mod adaptive;
+pub mod deep_weighted_blended;
+pub mod depth_peeling;
+pub mod dual_depth_peeling;
+pub mod layered;
+pub mod multi_layer_alpha;
 pub mod neural;
+pub mod parse;
+#[cfg(test)]
+mod testing;
+pub mod weighted_average;
+pub mod weighted_blended;
+pub mod weighted_sum;
 
-use crate::pixel::{CameraPlanes, DepthError, FragmentList, Pixel, abuffer};
+use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};
 use std::convert::Infallible;
 
 /// What a method must know besides the fragments.
@@ -77,7 +90,7 @@ pub trait Accumulated: Send + Sync {
 /// # Panics
 /// If the pixel has fragments and no colours.
 pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background: [f64; 3]) -> [f64; 3] {
-    let behind = libm::exp(-abuffer::total_absorbance(pixel));
+    let behind = libm::exp(-pixel::abuffer::total_absorbance(pixel));
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
     let mut total = 0.0;
@@ -106,6 +119,7 @@ pub fn weights(list: &FragmentList, accumulated: &dyn Accumulated) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pixel::abuffer;
 
     /// With exact transmittances the normalised composite is the over operator.
     #[test]
