@@ -64,7 +64,7 @@ mod tests {
     fn one_two_and_three_fragments_by_hand() {
         assert_close(&image(&ABuffer, &one())[0], &[0.625, 0.5, 0.5]);
         assert_close(&image(&ABuffer, &two())[0], &[0.75, 0.5, 0.25]);
-        assert_close(&image(&ABuffer, &three())[0], &[0.625, 0.25, 0.375]);
+        assert_close(&image(&ABuffer, &three())[0], &[0.625, 0.375, 0.25]);
         assert_close(&weights(&ABuffer, &three()), &[0.25, 1.0, 0.5]);
     }
 }

@@ -58,7 +58,7 @@ mod tests {
         assert_close(&of(2, &two()), &[0.75, 0.5, 0.25]);
         // Blue, the farthest, is missing.
         assert_close(&of(2, &three()), &[0.75, 0.5, 0.25]);
-        assert_close(&of(3, &three()), &[0.625, 0.25, 0.375]);
+        assert_close(&of(3, &three()), &[0.625, 0.375, 0.25]);
         assert_close(&weights(&DepthPeeling { passes: 2 }, &three()), &[0.0, 1.0, 0.5]);
     }
 

@@ -61,7 +61,7 @@ mod tests {
         assert_close(&of(1, &two()), &[0.75, 0.5, 0.25]);
         // Red over blue; green, between them, is missing.
         assert_close(&of(1, &three()), &[0.75, 0.25, 0.5]);
-        assert_close(&of(2, &three()), &[0.625, 0.25, 0.375]);
+        assert_close(&of(2, &three()), &[0.625, 0.375, 0.25]);
         assert_close(&weights(&DualDepthPeeling { passes: 1 }, &three()), &[0.5, 1.0, 0.0]);
     }
 
