@@ -10,7 +10,7 @@ use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
 /// Keeps the random numbers of the split into training and validation pixels apart from all others.
-const SPLIT_PURPOSE: u64 = 0x1003;
+const SPLIT_PURPOSE: u64 = 0x1004;
 
 /// Most rows that a dataset may be configured to have.
 pub const MOST_PAIRS: u64 = 1 << 30;
