@@ -5,8 +5,11 @@
 
 #![warn(missing_docs)]
 
+pub mod check;
+pub mod cli;
 pub mod dataset;
 pub mod evaluate;
+pub mod export;
 pub mod features;
 pub mod model;
 pub mod moments;

@@ -1,3 +1,7 @@
 //! The `nmt` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    nmt::cli::main()
+}

@@ -84,6 +84,13 @@ impl FeatureSet {
         }
     }
 
+    /// What the columns mean, line by line: part of header comments and metadata.
+    pub fn description(self) -> &'static [&'static str] {
+        match self {
+            Self::Paper => &paper::DESCRIPTION,
+        }
+    }
+
     /// Number of columns, W.
     pub fn width(self) -> usize {
         self.columns().len()

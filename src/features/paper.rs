@@ -6,6 +6,15 @@ use crate::pixel::{CameraPlanes, DepthError, Pixel, ViewZ, absorbance};
 /// Names of the columns.
 pub const COLUMNS: [&str; 7] = ["d", "n", "b0", "b1", "b2", "b3", "b4"];
 
+/// What the columns mean.
+pub const DESCRIPTION: [&str; 5] = [
+    "w is window depth in [0, 1], as gl_FragCoord.z holds it; moments are taken of z = 2w - 1.",
+    "d = (e^w - e^w_min) / (e^w_max - e^w_min) over the fragments of the pixel, 0 where w_min = w_max;",
+    "n = number of fragments of the pixel; b0 = sum of A; b_k = sum of A z^k;",
+    "A = min(-ln(1 - alpha), 10) is a fragment's absorbance, and every sum takes in all fragments of the pixel.",
+    "The answer is T = exp(-sum of A over the fragments nearer than this one).",
+];
+
 /// Relative depth of a fragment in its pixel: d = (e^w − e^wmin)/(e^wmax − e^wmin); 0 where wmin = wmax.
 ///
 /// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels suffer.

@@ -22,6 +22,9 @@ pub struct Dense {
 /// What is wrong with the shapes or the numbers of a network.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ShapeError {
+    /// The name cannot be that of a file.
+    #[error("name '{0}': only letters, digits, '-', '_' and '.' may stand in it, not first a '.', and at most 64 of them")]
+    Name(String),
     /// There is no layer.
     #[error("a network needs at least one layer")]
     NoLayers,
@@ -131,6 +134,15 @@ pub struct Mlp {
     pub provenance: Provenance,
 }
 
+/// Checks that a name can be a file's stem and stand in a comment.
+///
+/// # Errors
+/// [`ShapeError::Name`].
+pub fn check_name(name: &str) -> Result<(), ShapeError> {
+    let allowed = name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
+    if allowed && (1..=64).contains(&name.len()) && !name.starts_with('.') { Ok(()) } else { Err(ShapeError::Name(name.to_owned())) }
+}
+
 /// Rows that the batched forward pass takes together.
 const LANES: usize = 16;
 
@@ -138,8 +150,10 @@ impl Mlp {
     /// A network from its layers.
     ///
     /// # Errors
-    /// [`ShapeError`] where the layers do not chain from the width of the feature set to one output, or a number is not finite.
+    /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature set to one output, or a number is not finite.
     pub fn new(name: impl Into<String>, feature_set: FeatureSet, layers: Vec<Dense>, provenance: Provenance) -> Result<Self, ShapeError> {
+        let name = name.into();
+        check_name(&name)?;
         let mut expected = feature_set.width();
         for (index, dense) in layers.iter().enumerate() {
             dense.check(index + 1)?;
@@ -151,7 +165,7 @@ impl Mlp {
         match layers.last() {
             None => Err(ShapeError::NoLayers),
             Some(last) if last.outputs != 1 => Err(ShapeError::Outputs(last.outputs)),
-            Some(_) => Ok(Self { name: name.into(), feature_set, layers, provenance }),
+            Some(_) => Ok(Self { name, feature_set, layers, provenance }),
         }
     }
 
@@ -333,6 +347,7 @@ pub(crate) mod tests {
                 error(vec![dense(7, 0)]),
                 error(vec![not_finite]),
                 error(vec![short]),
+                Mlp::new("../x", FeatureSet::Paper, vec![dense(7, 1)], Provenance::default()).unwrap_err().to_string(),
             ]
             .join("\n")
         );

@@ -198,6 +198,22 @@ impl FragmentList {
         self
     }
 
+    /// The pixels of this list, then those of another, with this list's planes; not an image any more.
+    ///
+    /// Colours stay where both lists have them.
+    pub fn followed_by(&self, other: &Self) -> Self {
+        let join = |a: &[f32], b: &[f32]| [a, b].concat();
+        let start = self.len() as u64;
+        Self {
+            offsets: self.offsets.iter().copied().chain(other.offsets[1..].iter().map(|o| start + o)).collect(),
+            view_z: join(&self.view_z, &other.view_z),
+            alpha: join(&self.alpha, &other.alpha),
+            color: self.color.as_ref().zip(other.color.as_ref()).map(|(a, b)| [a.as_slice(), b].concat()),
+            size: None,
+            planes: self.planes,
+        }
+    }
+
     /// Number of pixels, P.
     pub fn pixels(&self) -> usize {
         self.offsets.len() - 1
@@ -317,6 +333,8 @@ mod tests {
         assert_eq!((ties.pixels(), ties.len(), ties.depth_complexity()), (3, 3, 2));
         assert_eq!(ties.range(1), 0..2);
         assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
+        let twice = ties.followed_by(&ties);
+        assert_eq!((twice.pixels(), twice.len(), twice.range(4), twice.range(5)), (6, 6, 3..5, 5..6));
     }
 
     #[test]

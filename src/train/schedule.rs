@@ -57,7 +57,7 @@ pub enum Outcome {
     /// All epochs are done.
     Finished {
         /// The network with the least validation loss.
-        mlp: Mlp,
+        mlp: Box<Mlp>,
         /// Losses of every epoch.
         history: Vec<Losses>,
     },
@@ -183,7 +183,7 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
         validation_loss: Some(best.validation),
         ..job.provenance.clone()
     };
-    Ok(Outcome::Finished { mlp: network(&done.best_parameters, provenance)?, history: done.history })
+    Ok(Outcome::Finished { mlp: Box::new(network(&done.best_parameters, provenance)?), history: done.history })
 }
 
 fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
@@ -244,7 +244,7 @@ mod tests {
 
     fn finished(outcome: Outcome) -> (Mlp, Vec<Losses>) {
         match outcome {
-            Outcome::Finished { mlp, history } => (mlp, history),
+            Outcome::Finished { mlp, history } => (*mlp, history),
             other => panic!("{other:?}"),
         }
     }

@@ -1,0 +1,524 @@
+//! Runs shader functions on the CPU, from naga's intermediate representation, in f32: what the source says is computed, not only parsed.
+//!
+//! Many rows run side by side in lanes. The subset of the language that exports use is supported; anything else is an error that names it.
+
+use naga::{BinaryOperator, Expression, Function, Handle, Literal, MathFunction, Module, Statement, TypeInner, UnaryOperator};
+use std::sync::Arc;
+
+/// A value in every lane.
+#[derive(Debug, Clone)]
+pub enum Value<const L: usize> {
+    /// The same number in every lane.
+    Uniform(f32),
+    /// A number a lane.
+    Lanes(Arc<[f32; L]>),
+    /// A truth value a lane.
+    Bools(Arc<[bool; L]>),
+    /// An index, the same in every lane.
+    Index(u32),
+    /// A vector, matrix (of columns) or array.
+    Composite(Arc<[Self]>),
+}
+
+/// Why a function could not be run.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum InterpretError {
+    /// There is no such function.
+    #[error("there is no function '{0}'")]
+    NoFunction(String),
+    /// There is no such constant.
+    #[error("there is no constant '{0}'")]
+    NoConstant(String),
+    /// A part of the language that exports do not use.
+    #[error("{0} is not supported here")]
+    Unsupported(String),
+    /// Operands do not fit.
+    #[error("operands of {0} do not fit")]
+    Operands(&'static str),
+    /// Lanes would take different branches.
+    #[error("the rows take different branches")]
+    Divergent,
+    /// The function ends without a value.
+    #[error("the function returns no value")]
+    NoValue,
+}
+
+type Result<T> = std::result::Result<T, InterpretError>;
+
+fn unsupported<T>(what: impl std::fmt::Debug) -> Result<T> {
+    // The variant's name is enough; handles and nested data help nobody.
+    let name: String = format!("{what:?}").chars().take_while(|c| c.is_alphanumeric() || *c == ':').collect();
+    Err(InterpretError::Unsupported(name))
+}
+
+impl<const L: usize> Value<L> {
+    /// A vector or array of numbers, the same in every lane.
+    pub fn numbers(values: &[f32]) -> Self {
+        Self::Composite(values.iter().map(|&v| Self::Uniform(v)).collect())
+    }
+
+    /// The number in a lane.
+    fn lane(&self, lane: usize) -> Result<f32> {
+        match self {
+            Self::Uniform(x) => Ok(*x),
+            Self::Lanes(x) => Ok(x[lane]),
+            _ => Err(InterpretError::Operands("a scalar operation")),
+        }
+    }
+
+    /// All numbers of a composite that is the same in every lane, as everything is in a single one, in order.
+    ///
+    /// # Errors
+    /// [`InterpretError::Operands`] where it is not made of such numbers.
+    pub fn flatten(&self) -> Result<Vec<f32>> {
+        match self {
+            Self::Uniform(x) => Ok(vec![*x]),
+            Self::Lanes(x) if L == 1 => Ok(x.to_vec()),
+            Self::Composite(items) => items.iter().map(Self::flatten).collect::<Result<Vec<_>>>().map(|v| v.concat()),
+            _ => Err(InterpretError::Operands("a constant")),
+        }
+    }
+
+    fn item(&self, index: usize) -> Result<Self> {
+        match self {
+            Self::Composite(items) => items.get(index).cloned().ok_or(InterpretError::Operands("an index")),
+            _ => Err(InterpretError::Operands("an index")),
+        }
+    }
+
+    /// A number a lane. A plain loop, which vectorises, where the array's own `map` does not.
+    #[inline]
+    fn each(f: impl Fn(usize) -> f32) -> Self {
+        let mut out = [0.0; L];
+        for (lane, out) in out.iter_mut().enumerate() {
+            *out = f(lane);
+        }
+        Self::Lanes(Arc::new(out))
+    }
+
+    fn map(&self, f: &impl Fn(f32) -> f32) -> Result<Self> {
+        Ok(match self {
+            Self::Uniform(x) => Self::Uniform(f(*x)),
+            Self::Lanes(x) => Self::each(|l| f(x[l])),
+            Self::Composite(items) => Self::Composite(items.iter().map(|i| i.map(f)).collect::<Result<_>>()?),
+            _ => return Err(InterpretError::Operands("arithmetic")),
+        })
+    }
+
+    /// Component by component; a scalar goes with every component.
+    fn zip(&self, other: &Self, f: &impl Fn(f32, f32) -> f32) -> Result<Self> {
+        Ok(match (self, other) {
+            (Self::Composite(a), Self::Composite(b)) if a.len() == b.len() => {
+                Self::Composite(a.iter().zip(b.iter()).map(|(a, b)| a.zip(b, f)).collect::<Result<_>>()?)
+            }
+            (Self::Composite(a), b @ (Self::Uniform(_) | Self::Lanes(_))) => Self::Composite(a.iter().map(|a| a.zip(b, f)).collect::<Result<_>>()?),
+            (a @ (Self::Uniform(_) | Self::Lanes(_)), Self::Composite(b)) => Self::Composite(b.iter().map(|b| a.zip(b, f)).collect::<Result<_>>()?),
+            (Self::Uniform(a), Self::Uniform(b)) => Self::Uniform(f(*a, *b)),
+            (Self::Uniform(a), Self::Lanes(b)) => Self::each(|l| f(*a, b[l])),
+            (Self::Lanes(a), Self::Uniform(b)) => Self::each(|l| f(a[l], *b)),
+            (Self::Lanes(a), Self::Lanes(b)) => Self::each(|l| f(a[l], b[l])),
+            _ => return Err(InterpretError::Operands("arithmetic")),
+        })
+    }
+
+    fn compare(&self, other: &Self, f: impl Fn(f32, f32) -> bool) -> Result<Self> {
+        let mut out = [false; L];
+        for (lane, out) in out.iter_mut().enumerate() {
+            *out = f(self.lane(lane)?, other.lane(lane)?);
+        }
+        Ok(Self::Bools(Arc::new(out)))
+    }
+
+    fn columns(&self) -> Option<&[Self]> {
+        match self {
+            Self::Composite(items) if matches!(items.first(), Some(Self::Composite(_))) => Some(items),
+            _ => None,
+        }
+    }
+
+    /// Product as shading languages mean it: a matrix times a vector is the sum of its columns by the vector's components, in order.
+    fn multiply(&self, other: &Self) -> Result<Self> {
+        let times = |a: f32, b: f32| a * b;
+        match (self.columns(), other) {
+            (Some(columns), Self::Composite(x)) if other.columns().is_none() && x.len() == columns.len() => {
+                let mut sum = columns[0].zip(&x[0], &times)?;
+                for (column, x) in columns.iter().zip(x.iter()).skip(1) {
+                    sum = sum.zip(&column.zip(x, &times)?, &|a, b| a + b)?;
+                }
+                Ok(sum)
+            }
+            (None, _) if other.columns().is_none() => self.zip(other, &times),
+            _ => unsupported("MatrixProduct"),
+        }
+    }
+
+    fn dot(&self, other: &Self) -> Result<Self> {
+        match self.zip(other, &|a, b| a * b)? {
+            Self::Composite(terms) => {
+                let mut sum = terms[0].clone();
+                for term in &terms[1..] {
+                    sum = sum.zip(term, &|a, b| a + b)?;
+                }
+                Ok(sum)
+            }
+            _ => Err(InterpretError::Operands("dot")),
+        }
+    }
+
+    fn select(condition: &Self, accept: &Self, reject: &Self) -> Result<Self> {
+        let Self::Bools(c) = condition else { return Err(InterpretError::Operands("select")) };
+        let mut out = [0.0; L];
+        for (lane, out) in out.iter_mut().enumerate() {
+            *out = if c[lane] { accept.lane(lane)? } else { reject.lane(lane)? };
+        }
+        Ok(Self::Lanes(Arc::new(out)))
+    }
+}
+
+/// A module whose functions can be called.
+pub struct Interpreter<'a> {
+    module: &'a Module,
+}
+
+impl<'a> Interpreter<'a> {
+    /// An interpreter of a validated module.
+    pub fn new(module: &'a Module) -> Self {
+        Self { module }
+    }
+
+    /// All numbers of a module constant, in order.
+    ///
+    /// # Errors
+    /// [`InterpretError::NoConstant`] where there is none of this name.
+    pub fn constant(&self, name: &str) -> Result<Vec<f32>> {
+        let found = self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
+        let (_, constant) = found.ok_or_else(|| InterpretError::NoConstant(name.to_owned()))?;
+        self.global::<1>(constant.init)?.flatten()
+    }
+
+    /// Names of the module's constants.
+    pub fn constant_names(&self) -> impl Iterator<Item = &str> {
+        self.module.constants.iter().filter_map(|(_, c)| c.name.as_deref())
+    }
+
+    /// Calls a function on a row of arguments a lane.
+    ///
+    /// # Errors
+    /// [`InterpretError`].
+    pub fn call<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>) -> Result<Value<L>> {
+        let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
+        let (_, function) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
+        self.run(function, arguments)
+    }
+
+    /// Calls a function of one array argument on rows of numbers; the result is a number a row.
+    ///
+    /// # Shapes
+    /// `rows: [N, width]`, row by row; the result is `[N]`.
+    ///
+    /// # Errors
+    /// [`InterpretError`].
+    pub fn call_rows(&self, name: &str, rows: &[f32], width: usize) -> Result<Vec<f32>> {
+        use rayon::prelude::*;
+        const L: usize = 64;
+        let blocks: Vec<Vec<f32>> = rows.par_chunks(L * width).map(|block| self.call_block::<L>(name, block, width)).collect::<Result<_>>()?;
+        Ok(blocks.concat())
+    }
+
+    fn call_block<const L: usize>(&self, name: &str, rows: &[f32], width: usize) -> Result<Vec<f32>> {
+        let n = rows.len() / width;
+        // Lanes beyond the last row repeat it.
+        let lanes = |i: usize| Value::each(|lane| rows[lane.min(n - 1) * width + i]);
+        match self.call::<L>(name, vec![Value::Composite((0..width).map(lanes).collect())]) {
+            Ok(value) => (0..n).map(|lane| value.lane(lane)).collect(),
+            Err(InterpretError::Divergent) if L > 1 => {
+                rows.chunks_exact(width).map(|row| self.call::<1>(name, vec![Value::numbers(row)])?.lane(0)).collect()
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// A constant expression of the module.
+    fn global<const L: usize>(&self, handle: Handle<Expression>) -> Result<Value<L>> {
+        match &self.module.global_expressions[handle] {
+            Expression::Literal(literal) => literal_value(*literal),
+            Expression::Constant(constant) => self.global(self.module.constants[*constant].init),
+            Expression::Compose { components, .. } => components.iter().map(|&c| self.global(c)).collect::<Result<_>>().map(Value::Composite),
+            Expression::Splat { size, value } => Ok(splat(self.global(*value)?, *size as usize)),
+            Expression::ZeroValue(ty) => self.zero(*ty),
+            Expression::Unary { op: UnaryOperator::Negate, expr } => self.global::<L>(*expr)?.map(&|x| -x),
+            other => unsupported(other),
+        }
+    }
+
+    fn zero<const L: usize>(&self, ty: Handle<naga::Type>) -> Result<Value<L>> {
+        let copies = |n: usize, item: Value<L>| Value::Composite((0..n).map(|_| item.clone()).collect());
+        match self.module.types[ty].inner {
+            TypeInner::Scalar(naga::Scalar { kind: naga::ScalarKind::Float, .. }) => Ok(Value::Uniform(0.0)),
+            TypeInner::Vector { size, .. } => Ok(copies(size as usize, Value::Uniform(0.0))),
+            TypeInner::Matrix { columns, rows, .. } => Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0)))),
+            TypeInner::Array { base, size: naga::ArraySize::Constant(n), .. } => Ok(copies(n.get() as usize, self.zero(base)?)),
+            ref other => unsupported(other),
+        }
+    }
+
+    fn run<const L: usize>(&self, function: &'a Function, arguments: Vec<Value<L>>) -> Result<Value<L>> {
+        if arguments.len() != function.arguments.len() {
+            return Err(InterpretError::Operands("a call"));
+        }
+        let mut locals = Vec::new();
+        for (_, local) in function.local_variables.iter() {
+            let mut frame = Frame { interpreter: self, function, arguments: &[], locals: Vec::new(), values: Vec::new() };
+            locals.push(match local.init {
+                Some(init) => frame.value(init)?,
+                None => self.zero(local.ty)?,
+            });
+        }
+        let mut frame = Frame { interpreter: self, function, arguments: &arguments, locals, values: vec![None; function.expressions.len()] };
+        match frame.block(&function.body)? {
+            Flow::Return(Some(value)) => Ok(value),
+            _ => Err(InterpretError::NoValue),
+        }
+    }
+}
+
+fn literal_value<const L: usize>(literal: Literal) -> Result<Value<L>> {
+    match literal {
+        Literal::F32(x) => Ok(Value::Uniform(x)),
+        Literal::U32(x) => Ok(Value::Index(x)),
+        Literal::I32(x) => u32::try_from(x).map(Value::Index).map_err(|_| InterpretError::Operands("an index")),
+        Literal::Bool(x) => Ok(Value::Bools(Arc::new([x; L]))),
+        other => unsupported(other),
+    }
+}
+
+fn splat<const L: usize>(value: Value<L>, size: usize) -> Value<L> {
+    Value::Composite((0..size).map(|_| value.clone()).collect())
+}
+
+enum Flow<const L: usize> {
+    Next,
+    Return(Option<Value<L>>),
+}
+
+/// One running call.
+struct Frame<'a, 'b, const L: usize> {
+    interpreter: &'b Interpreter<'a>,
+    function: &'a Function,
+    arguments: &'b [Value<L>],
+    locals: Vec<Value<L>>,
+    values: Vec<Option<Value<L>>>,
+}
+
+impl<const L: usize> Frame<'_, '_, L> {
+    fn block(&mut self, block: &naga::Block) -> Result<Flow<L>> {
+        for statement in block.iter() {
+            match statement {
+                Statement::Emit(range) => {
+                    for handle in range.clone() {
+                        // Addresses are worked out where they are used.
+                        if self.place(handle).is_none() {
+                            let value = self.evaluate(handle)?;
+                            self.values[handle.index()] = Some(value);
+                        }
+                    }
+                }
+                Statement::Block(inner) => {
+                    if let flow @ Flow::Return(_) = self.block(inner)? {
+                        return Ok(flow);
+                    }
+                }
+                Statement::If { condition, accept, reject } => {
+                    let Value::Bools(c) = self.value(*condition)? else { return Err(InterpretError::Operands("if")) };
+                    if c.iter().any(|&b| b != c[0]) {
+                        return Err(InterpretError::Divergent);
+                    }
+                    if let flow @ Flow::Return(_) = self.block(if c[0] { accept } else { reject })? {
+                        return Ok(flow);
+                    }
+                }
+                Statement::Return { value } => return Ok(Flow::Return(value.map(|v| self.value(v)).transpose()?)),
+                Statement::Store { pointer, value } => {
+                    let value = self.value(*value)?;
+                    let (local, path) = self.place(*pointer).ok_or(InterpretError::Operands("a store"))?;
+                    store(&mut self.locals[local], &path, value)?;
+                }
+                Statement::Call { function, arguments, result } => {
+                    let arguments = arguments.iter().map(|&a| self.value(a)).collect::<Result<Vec<_>>>()?;
+                    let value = self.interpreter.run(&self.interpreter.module.functions[*function], arguments)?;
+                    if let Some(result) = result {
+                        self.values[result.index()] = Some(value);
+                    }
+                }
+                other => return unsupported(other),
+            }
+        }
+        Ok(Flow::Next)
+    }
+
+    /// The local variable, and the way to a part of it, that an address expression names.
+    fn place(&self, handle: Handle<Expression>) -> Option<(usize, Vec<usize>)> {
+        match &self.function.expressions[handle] {
+            Expression::LocalVariable(local) => Some((local.index(), Vec::new())),
+            Expression::AccessIndex { base, index } => self.place(*base).map(|(local, mut path)| {
+                path.push(*index as usize);
+                (local, path)
+            }),
+            Expression::Access { base, index } => {
+                let (local, mut path) = self.place(*base)?;
+                path.push(self.index(*index).ok()?);
+                Some((local, path))
+            }
+            _ => None,
+        }
+    }
+
+    /// An index that is the same in every lane.
+    fn index(&self, handle: Handle<Expression>) -> Result<usize> {
+        match &self.function.expressions[handle] {
+            Expression::Literal(Literal::U32(i)) => Ok(*i as usize),
+            Expression::Literal(Literal::I32(i)) => usize::try_from(*i).map_err(|_| InterpretError::Operands("an index")),
+            other => unsupported(other),
+        }
+    }
+
+    /// The value of an expression that is known already, or needs no statement to become so.
+    fn value(&mut self, handle: Handle<Expression>) -> Result<Value<L>> {
+        match self.values.get(handle.index()) {
+            Some(Some(value)) => Ok(value.clone()),
+            _ => {
+                let value = self.evaluate(handle)?;
+                if let Some(slot) = self.values.get_mut(handle.index()) {
+                    *slot = Some(value.clone());
+                }
+                Ok(value)
+            }
+        }
+    }
+
+    fn evaluate(&mut self, handle: Handle<Expression>) -> Result<Value<L>> {
+        match &self.function.expressions[handle] {
+            Expression::Literal(literal) => literal_value(*literal),
+            Expression::Constant(constant) => self.interpreter.global(self.interpreter.module.constants[*constant].init),
+            Expression::ZeroValue(ty) => self.interpreter.zero(*ty),
+            Expression::Compose { components, .. } => components.iter().map(|&c| self.value(c)).collect::<Result<_>>().map(Value::Composite),
+            Expression::Splat { size, value } => Ok(splat(self.value(*value)?, *size as usize)),
+            Expression::FunctionArgument(index) => self.arguments.get(*index as usize).cloned().ok_or(InterpretError::Operands("a call")),
+            Expression::AccessIndex { base, index } => self.value(*base)?.item(*index as usize),
+            Expression::Access { base, index } => {
+                let index = self.index(*index)?;
+                self.value(*base)?.item(index)
+            }
+            Expression::Load { pointer } => {
+                let (local, path) = self.place(*pointer).ok_or(InterpretError::Operands("a load"))?;
+                path.iter().try_fold(self.locals[local].clone(), |value, &index| value.item(index))
+            }
+            Expression::Swizzle { size, vector, pattern } => {
+                let vector = self.value(*vector)?;
+                (0..*size as usize).map(|i| vector.item(pattern[i] as usize)).collect::<Result<_>>().map(Value::Composite)
+            }
+            Expression::Unary { op: UnaryOperator::Negate, expr } => self.value(*expr)?.map(&|x| -x),
+            Expression::Binary { op, left, right } => {
+                let (a, b) = (self.value(*left)?, self.value(*right)?);
+                match op {
+                    BinaryOperator::Add => a.zip(&b, &|a, b| a + b),
+                    BinaryOperator::Subtract => a.zip(&b, &|a, b| a - b),
+                    BinaryOperator::Multiply => a.multiply(&b),
+                    BinaryOperator::Divide => a.zip(&b, &|a, b| a / b),
+                    BinaryOperator::Less => a.compare(&b, |a, b| a < b),
+                    BinaryOperator::LessEqual => a.compare(&b, |a, b| a <= b),
+                    BinaryOperator::Greater => a.compare(&b, |a, b| a > b),
+                    BinaryOperator::GreaterEqual => a.compare(&b, |a, b| a >= b),
+                    BinaryOperator::Equal => a.compare(&b, |a, b| a == b),
+                    BinaryOperator::NotEqual => a.compare(&b, |a, b| a != b),
+                    other => unsupported(other),
+                }
+            }
+            Expression::Select { condition, accept, reject } => Value::select(&self.value(*condition)?, &self.value(*accept)?, &self.value(*reject)?),
+            Expression::Math { fun, arg, arg1, arg2, .. } => {
+                let a = self.value(*arg)?;
+                let b = arg1.map(|b| self.value(b)).transpose()?;
+                let c = arg2.map(|c| self.value(c)).transpose()?;
+                match (fun, b, c) {
+                    (MathFunction::Exp, None, None) => a.map(&libm::expf),
+                    (MathFunction::Log, None, None) => a.map(&libm::logf),
+                    (MathFunction::Abs, None, None) => a.map(&f32::abs),
+                    (MathFunction::Sqrt, None, None) => a.map(&f32::sqrt),
+                    (MathFunction::Max, Some(b), None) => a.zip(&b, &f32::max),
+                    (MathFunction::Min, Some(b), None) => a.zip(&b, &f32::min),
+                    (MathFunction::Dot, Some(b), None) => a.dot(&b),
+                    (MathFunction::Clamp, Some(b), Some(c)) => a.zip(&b, &f32::max)?.zip(&c, &f32::min),
+                    (other, ..) => unsupported(other),
+                }
+            }
+            other => unsupported(other),
+        }
+    }
+}
+
+fn store<const L: usize>(target: &mut Value<L>, path: &[usize], value: Value<L>) -> Result<()> {
+    match path.split_first() {
+        None => {
+            *target = value;
+            Ok(())
+        }
+        Some((&index, rest)) => match target {
+            Value::Composite(items) => {
+                let mut changed = items.to_vec();
+                store(changed.get_mut(index).ok_or(InterpretError::Operands("an index"))?, rest, value)?;
+                *target = Value::Composite(changed.into());
+                Ok(())
+            }
+            _ => Err(InterpretError::Operands("a store")),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn module(source: &str) -> Module {
+        naga::front::wgsl::parse_str(source).unwrap()
+    }
+
+    fn call(source: &str, arguments: &[f32]) -> Result<f32> {
+        let module = module(source);
+        Interpreter::new(&module).call::<1>("f", arguments.iter().map(|&a| Value::Uniform(a)).collect())?.lane(0)
+    }
+
+    #[test]
+    fn arithmetic_vectors_and_matrices() {
+        assert_eq!(call("fn f(x: f32) -> f32 { return -x * 2.0 + max(x, 1.0) / 4.0; }", &[3.0]), Ok(-5.25));
+        assert_eq!(call("fn f(x: f32) -> f32 { return dot(vec3<f32>(x, 2.0, 3.0), vec3<f32>(1.0, x, 2.0)); }", &[4.0]), Ok(18.0));
+        let matrix = "fn f(x: f32) -> f32 { let m = mat2x2<f32>(vec2<f32>(1.0, 2.0), vec2<f32>(3.0, x)); return (m * vec2<f32>(10.0, 1.0)).y; }";
+        assert_eq!(call(matrix, &[4.0]), Ok(24.0));
+        assert_eq!(call("fn f(x: f32) -> f32 { var v = vec4<f32>(x); v.y = 7.0; return v.zyx.y; }", &[4.0]), Ok(7.0));
+        assert_eq!(call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]), Ok(std::f32::consts::E));
+    }
+
+    #[test]
+    fn branches_calls_and_selects() {
+        let source =
+            "fn g(x: f32) -> f32 { if x > 1.0 { return 10.0; } return select(1.0, 2.0, x > 0.0); } fn f(x: f32) -> f32 { return g(x) + 0.5; }";
+        assert_eq!(call(source, &[2.0]), Ok(10.5));
+        assert_eq!(call(source, &[0.5]), Ok(2.5));
+        assert_eq!(call(source, &[-1.0]), Ok(1.5));
+    }
+
+    /// Rows that take different branches still get each its own answer.
+    #[test]
+    fn divergent_rows() {
+        let module = module("fn f(x: array<f32, 2>) -> f32 { if x[0] > 0.0 { return x[1]; } return -1.0; }");
+        let rows = [1.0, 5.0, -1.0, 6.0, 2.0, 7.0];
+        assert_eq!(Interpreter::new(&module).call_rows("f", &rows, 2), Ok(vec![5.0, -1.0, 7.0]));
+    }
+
+    #[test]
+    fn what_is_not_supported_is_named() {
+        assert_eq!(call("fn f(x: f32) -> f32 { return sin(x); }", &[1.0]), Err(InterpretError::Unsupported("Sin".to_owned())));
+        let run_time_index = "const W = array<f32, 2>(1.0, 2.0); fn f(x: f32) -> f32 { return W[u32(x)]; }";
+        assert!(matches!(call(run_time_index, &[1.0]), Err(InterpretError::Unsupported(_))));
+        assert!(matches!(Interpreter::new(&module("")).call::<1>("f", vec![]), Err(InterpretError::NoFunction(_))));
+    }
+}

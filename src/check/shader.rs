@@ -1,0 +1,245 @@
+//! Shader exports: parsed and validated by naga, weights read back bit for bit, executed on the CPU.
+
+use super::interpret::Interpreter;
+use crate::export::Format;
+use crate::model::Mlp;
+use naga::{Expression, Module};
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+/// Parses and validates a shader export.
+///
+/// # Errors
+/// The compiler's own words, with the place.
+pub fn parse(format: Format, source: &str) -> Result<Module, String> {
+    let module = match format {
+        Format::Wgsl | Format::WgslPacked => naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?,
+        _ => {
+            let whole = complete_glsl(source);
+            naga::front::glsl::Frontend::default()
+                .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
+                .map_err(|e| e.emit_to_string(&whole))?
+        }
+    };
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
+        .validate(&module)
+        .map_err(|e| format!("naga does not validate it: {}", e.into_inner()))?;
+    Ok(module)
+}
+
+/// An include file as a whole shader.
+fn complete_glsl(include: &str) -> String {
+    format!("#version 450\n{include}\nvoid main() {{}}\n")
+}
+
+/// Reads every weight and bias back and compares its bits with the network's, and that nothing else than 0 stands beside them.
+///
+/// # Errors
+/// Names the constant and the place of the first difference.
+pub fn weights(format: Format, module: &Module, mlp: &Mlp) -> Result<(), String> {
+    let interpreter = Interpreter::new(module);
+    let packed = matches!(format, Format::WgslPacked | Format::GlslPacked);
+    let mut expected_names = Vec::new();
+    let last = mlp.layers().len() - 1;
+    for (index, dense) in mlp.layers().iter().enumerate() {
+        let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
+        let weights = interpreter.constant(&weights_name).map_err(|e| e.to_string())?;
+        let folded = packed && dense.inputs() % 4 != 0;
+        let biases = if folded { Vec::new() } else { interpreter.constant(&biases_name).map_err(|e| e.to_string())? };
+        // Where input i's weight to output o stands, and bias o.
+        let groups = dense.inputs().div_ceil(4);
+        let weight_at = |i: usize, o: usize| match packed {
+            false => i * dense.outputs() + o,
+            true if index == last => i,
+            true => ((o / 4) * groups + i / 4) * 16 + (i % 4) * 4 + o % 4,
+        };
+        let mut met = vec![false; weights.len()];
+        let mut compare = |name: &str, values: &[f32], at: usize, mark: bool, expected: f32| match values.get(at) {
+            Some(found) if found.to_bits() == expected.to_bits() => {
+                if mark {
+                    met[at] = true;
+                }
+                Ok(())
+            }
+            Some(found) => Err(format!("{name}: number {at} is {found:?}, the network has {expected:?}")),
+            None => Err(format!("{name} holds {} numbers, number {at} is needed", values.len())),
+        };
+        for o in 0..dense.outputs() {
+            for i in 0..dense.inputs() {
+                compare(&weights_name, &weights, weight_at(i, o), true, dense.weight(i, o))?;
+            }
+            match folded {
+                true => compare(&weights_name, &weights, weight_at(dense.inputs(), o), true, dense.biases[o])?,
+                false => compare(&biases_name, &biases, o, false, dense.biases[o])?,
+            }
+        }
+        if let Some(at) = (0..weights.len()).find(|&at| !met[at] && weights[at] != 0.0) {
+            return Err(format!("{weights_name}: number {at} is {:?}, which is no weight of the network", weights[at]));
+        }
+        if let Some(at) = (dense.outputs()..biases.len()).find(|&at| biases[at] != 0.0) {
+            return Err(format!("{biases_name}: number {at} is {:?}, which is no bias of the network", biases[at]));
+        }
+        expected_names.push(weights_name);
+        if !folded {
+            expected_names.push(biases_name);
+        }
+    }
+    if let Some(name) = interpreter.constant_names().find(|name| name.starts_with("NMT_") && !expected_names.iter().any(|e| e == name)) {
+        return Err(format!("constant '{name}' belongs to no layer of the network"));
+    }
+    Ok(())
+}
+
+/// Checks that every index is a literal: shader compilers copy a constant array at each access with a run-time index.
+///
+/// # Errors
+/// Names the function that has one.
+pub fn literal_indices(module: &Module) -> Result<(), String> {
+    for (_, function) in module.functions.iter() {
+        let literal = |e: &Expression| match e {
+            Expression::Access { index, .. } => matches!(function.expressions[*index], Expression::Literal(_) | Expression::Constant(_)),
+            _ => true,
+        };
+        if function.expressions.iter().any(|(_, e)| !literal(e)) {
+            return Err(format!("function '{}' has a run-time index", function.name.as_deref().unwrap_or("?")));
+        }
+    }
+    Ok(())
+}
+
+/// Runs glslangValidator on a GLSL export; none where the program is not installed.
+///
+/// # Errors
+/// Its own words.
+pub fn glslang(source: &str) -> Option<Result<(), String>> {
+    let mut child = Command::new("glslangValidator")
+        .args(["--stdin", "-S", "frag"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .ok()?;
+    let whole = complete_glsl(source);
+    let feed = child.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(whole.as_bytes()));
+    Some(match (feed, child.wait_with_output()) {
+        (_, Err(error)) | (Err(error), _) => Err(format!("glslangValidator: {error}")),
+        (Ok(()), Ok(output)) if output.status.success() => Ok(()),
+        (Ok(()), Ok(output)) => Err(String::from_utf8_lossy(&output.stdout).trim().to_owned()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::interpret::Value;
+    use super::*;
+    use crate::export::{encode, shader::ENTRY};
+    use crate::features::paper;
+    use crate::model::mlp::tests::random_mlp;
+
+    const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPacked, Format::Glsl, Format::GlslPacked];
+
+    fn source(mlp: &Mlp, format: Format) -> String {
+        String::from_utf8(encode(mlp, format)).unwrap()
+    }
+
+    /// Sizes that are and are not multiples of four, one to three layers: every form validates, reads back and computes the reference's numbers.
+    #[test]
+    fn every_form_of_every_size_computes_the_reference() {
+        let mut rng = crate::numeric::rng::stream(3, 0, 0);
+        let rows: Vec<f32> = (0..7 * 200).map(|_| rand::RngExt::random_range(&mut rng, -2.0..2.0)).collect();
+        for hidden in [&[][..], &[1], &[8], &[5], &[32, 16], &[6, 3], &[4, 7, 2]] {
+            let mlp = random_mlp(hidden, 9);
+            let reference = mlp.forward_batch::<f32>(&rows);
+            for format in SHADERS {
+                let text = source(&mlp, format);
+                let module = parse(format, &text).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
+                weights(format, &module, &mlp).unwrap();
+                literal_indices(&module).unwrap();
+                let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
+                for (o, r) in out.iter().zip(&reference) {
+                    match format {
+                        // The plain form adds in the reference's order: the same bits.
+                        Format::Wgsl | Format::Glsl => assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}"),
+                        _ => assert!((o - r).abs() < 2e-6, "{format:?} {hidden:?}: {o} {r}"),
+                    }
+                }
+                if let Some(result) = text.contains("float nmt").then(|| glslang(&text)).flatten() {
+                    result.unwrap();
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_changed_bit_is_found() {
+        let mlp = random_mlp(&[6, 3], 2);
+        let text = mlp.layers().iter().map(|l| (l.weights[1], l.biases[0]));
+        for (weight, bias) in text {
+            for value in [weight, bias] {
+                for format in SHADERS {
+                    let changed = source(&mlp, format).replacen(&format!("{value:?}"), &format!("{:?}", f32::from_bits(value.to_bits() ^ 1)), 1);
+                    let module = parse(format, &changed).unwrap();
+                    let message = weights(format, &module, &mlp).unwrap_err();
+                    assert!(message.contains("the network has"), "{message}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn broken_text_and_run_time_indices_are_found() {
+        let text = source(&random_mlp(&[4], 1), Format::Wgsl);
+        assert!(parse(Format::Wgsl, &text[..text.len() / 2]).is_err());
+        assert!(parse(Format::Glsl, &text).is_err());
+        let indexed = parse(Format::Wgsl, "const W = array<f32, 2>(1.0, 2.0); fn f(i: u32) -> f32 { return W[i]; }").unwrap();
+        assert_eq!(literal_indices(&indexed), Err("function 'f' has a run-time index".to_owned()));
+    }
+
+    /// The shaders' feature functions against the f64 features of random pixels. Tolerance 3e-7 + 1e-6 relative: f32 depths in, a few
+    /// operations. Control: without the least depth (w_min = 0) they are off.
+    #[test]
+    fn feature_functions_compute_the_features() {
+        use crate::pixel::{Pixel, ViewZ, absorbance};
+        let mlp = random_mlp(&[4], 1);
+        let synth = crate::synth::Synth::new(crate::synth::SynthConfig::paper(), 4).unwrap();
+        let list = synth.pixels(crate::synth::Purpose::Evaluation, 0, 40);
+        let planes = list.planes().unwrap();
+        for format in [Format::Wgsl, Format::Glsl] {
+            let module = parse(format, &source(&mlp, format)).unwrap();
+            let interpreter = Interpreter::new(&module);
+            let number = |v: f64| Value::<1>::Uniform(v as f32);
+            let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+            for p in 0..list.pixels() {
+                let pixel: Pixel<'_> = list.pixel(p);
+                let mut expected = vec![0.0; 7 * pixel.len()];
+                paper::extract(pixel, planes, &mut expected).unwrap();
+                let w: Vec<f64> = pixel.view_z.iter().map(|&v| planes.window(ViewZ(v.into())).unwrap().0).collect();
+                let (lo, hi) = w.iter().fold((f64::INFINITY, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
+                // Pass 1 in the shader's own functions.
+                let mut b = [0.0f32; 5];
+                for (&w, &alpha) in w.iter().zip(pixel.alpha) {
+                    let a = one("nmt_absorbance", vec![number(alpha.into())])[0];
+                    assert!((f64::from(a) - absorbance(alpha)).abs() <= 1e-7 + 3e-7 * absorbance(alpha));
+                    b[0] += a;
+                    let moments = one("nmt_moments", vec![number(w), Value::Uniform(a)]);
+                    b[1..].iter_mut().zip(moments).for_each(|(b, m)| *b += m);
+                }
+                for (row, &w) in expected.chunks_exact(7).zip(&w) {
+                    let call = |lo: f64| {
+                        let head = [w, lo, hi, pixel.len() as f64].map(number);
+                        one("nmt_features", head.into_iter().chain([Value::Uniform(b[0]), Value::numbers(&b[1..])]).collect())
+                    };
+                    let off = |found: Vec<f32>| {
+                        let scale = |k: usize, e: f32| if k < 2 { 3e-7 + 1e-6 * e.abs() } else { 1e-6 * row[2] };
+                        found.iter().zip(row).enumerate().any(|(k, (f, &e))| (f - e).is_nan() || (f - e).abs() > scale(k, e))
+                    };
+                    assert!(!off(call(lo)), "{format:?}: {:?} against {row:?}", call(lo));
+                    assert!(row[0] >= 1.0 || off(call(0.0)));
+                }
+            }
+            // One fragment, or all tied: d = 0.
+            let tied = one("nmt_features", [0.5, 0.5, 0.5, 1.0, 1.0].map(number).into_iter().chain([Value::numbers(&[0.0; 4])]).collect());
+            assert_eq!(tied[0], 0.0);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! `nmt check`
+
+use super::Verdict;
+use super::export::{FormatName, formats};
+use super::ui::{Ui, table};
+use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
+use crate::export::Format;
+use crate::model::{Mlp, file};
+use anyhow::bail;
+use clap::Args;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// Environment variable that makes tools a condition, as `--require` does.
+const REQUIRE_VARIABLE: &str = "NMT_REQUIRE";
+
+#[derive(Args)]
+pub struct Check {
+    /// Model file.
+    model: PathBuf,
+    /// Folder of its exports.
+    #[arg(long, value_name = "DIR")]
+    exports: PathBuf,
+    /// Formats to check.
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::ALL)]
+    format: Vec<FormatName>,
+    #[command(flatten)]
+    options: CheckArguments,
+}
+
+/// Options that `check` and `run` share.
+#[derive(Args, Clone)]
+pub struct CheckArguments {
+    /// Tools whose absence is a failure: onnxruntime, glslangValidator, gpu. NMT_REQUIRE does the same.
+    #[arg(long, value_delimiter = ',', value_name = "TOOLS")]
+    require: Vec<String>,
+}
+
+impl CheckArguments {
+    /// Tools that are required here or by the environment.
+    fn required(&self) -> anyhow::Result<Vec<String>> {
+        let variable = std::env::var(REQUIRE_VARIABLE).unwrap_or_default();
+        let tools: Vec<String> =
+            self.require.iter().map(String::as_str).chain(variable.split(',')).map(|t| t.trim().to_owned()).filter(|t| !t.is_empty()).collect();
+        if let Some(unknown) = tools.iter().find(|t| !OPTIONAL_TOOLS.contains(&t.as_str())) {
+            bail!("--require or {REQUIRE_VARIABLE} names '{unknown}'; known are {}", OPTIONAL_TOOLS.join(", "));
+        }
+        Ok(tools)
+    }
+}
+
+impl Check {
+    pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let mlp = file::load(&self.model)?;
+        let findings = findings(&mlp, &self.exports, &formats(&self.format), &self.options, ui)?;
+        if ui.json() {
+            ui.print_json("check", findings.iter().map(to_json).collect())?;
+        } else {
+            ui.print(&text(&findings))?;
+        }
+        Ok(verdict(&findings))
+    }
+}
+
+/// Checks with progress on stderr.
+pub fn findings(mlp: &Mlp, exports: &Path, formats: &[Format], arguments: &CheckArguments, ui: &Ui) -> anyhow::Result<Vec<Finding>> {
+    let required = arguments.required()?;
+    let progress = ui.progress("check", formats.len() as u64 + 1);
+    let done = std::cell::Cell::new(0);
+    let mut findings = check::check(mlp, exports, formats, CheckOptions::default(), &|name| {
+        progress.set(done.get(), name);
+        done.set(done.get() + 1);
+    });
+    progress.finish();
+    check::require(&mut findings, &required);
+    Ok(findings)
+}
+
+pub fn verdict(findings: &[Finding]) -> Verdict {
+    if findings.iter().any(|f| matches!(f.status, Status::Failed(_))) { Verdict::CheckFailed } else { Verdict::Fine }
+}
+
+pub fn to_json(finding: &Finding) -> Value {
+    let (status, reason) = match &finding.status {
+        Status::Passed => ("passed", None),
+        Status::Failed(why) => ("failed", Some(why)),
+        Status::Skipped(why) => ("skipped", Some(why)),
+    };
+    let numbers: Vec<Value> = finding
+        .numbers
+        .iter()
+        .map(|n| {
+            json!({
+                "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(), "worst_error": n.export.worst(),
+                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar,
+            })
+        })
+        .collect();
+    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "numbers": numbers })
+}
+
+/// A table of all findings, then the reasons of those that did not pass.
+fn text(findings: &[Finding]) -> String {
+    let mut rows =
+        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own f32", "bar", "result"].map(str::to_owned).to_vec()];
+    let mut reasons = String::new();
+    for f in findings {
+        let result = match &f.status {
+            Status::Passed => "ok",
+            Status::Failed(why) => {
+                reasons += &format!("FAILED {}, {}, {}: {why}\n", f.format.name(), f.tool, f.question);
+                "FAILED"
+            }
+            Status::Skipped(why) => {
+                reasons += &format!("skipped {}, {}, {}: {why}\n", f.format.name(), f.tool, f.question);
+                "skipped"
+            }
+        };
+        let head = [f.format.name(), f.tool, f.question].map(str::to_owned);
+        if f.numbers.is_empty() {
+            rows.push(head.iter().cloned().chain(["", "", "", "", "", result].map(str::to_owned)).collect());
+        }
+        for n in &f.numbers {
+            let numbers = [
+                format!("{} {}", n.export.count(), n.kind.name()),
+                format!("{:.2e}", n.export.worst()),
+                format!("{:.2e}", n.export.mean()),
+                format!("{:.2e}", n.reference.worst()),
+                format!("{:.2e}", n.bar),
+                result.to_owned(),
+            ];
+            rows.push(head.iter().cloned().chain(numbers).collect());
+        }
+    }
+    table(&rows) + &reasons
+}

@@ -1,0 +1,75 @@
+//! `nmt generate`
+
+use super::config::Config;
+use super::ui::Ui;
+use super::{Verdict, ui};
+use crate::dataset::{self, Dataset, file};
+use crate::numeric::file::{Replace, may_write};
+use crate::pixel::FragmentList;
+use crate::scene::npz;
+use clap::Args;
+use serde_json::json;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Args)]
+pub struct Generate {
+    /// Configuration file.
+    config: PathBuf,
+    /// Folder for the dataset.
+    #[arg(long)]
+    out: PathBuf,
+    /// Write the raw pixels too, as a fragment list: training pixels, then validation pixels.
+    #[arg(long, value_name = "F.npz")]
+    fragments: Option<PathBuf>,
+    /// Replace what is there.
+    #[arg(long)]
+    force: bool,
+}
+
+impl Generate {
+    pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        let config = Config::load(&self.config)?;
+        file::may_write_to(&self.out, replace)?;
+        if let Some(path) = &self.fragments {
+            may_write(path, replace)?;
+        }
+        let start = Instant::now();
+        let (dataset, pixels) = build(&config, ui)?;
+        let seconds = start.elapsed().as_secs_f64();
+        file::write(&self.out, replace, &dataset)?;
+        if let Some(path) = &self.fragments {
+            let [training, validation] = pixels;
+            npz::write(path, replace, &training.followed_by(&validation))?;
+        }
+        let pairs = dataset.training.len() + dataset.validation.len();
+        let part = |name: &str, part: &file::Part| vec![name.to_owned(), part.pixels.to_string(), part.pairs.to_string()];
+        if ui.json() {
+            ui.print_json(
+                "generate",
+                vec![json!({
+                    "dataset": self.out, "hash": dataset.manifest.hash, "pairs_per_second": pairs as f64 / seconds, "seconds": seconds,
+                    "training_pixels": dataset.manifest.training.pixels, "training_pairs": dataset.manifest.training.pairs,
+                    "validation_pixels": dataset.manifest.validation.pixels, "validation_pairs": dataset.manifest.validation.pairs,
+                })],
+            )?;
+        } else {
+            ui.print(&ui::table(&[
+                ["part", "pixels", "pairs"].map(str::to_owned).to_vec(),
+                part("training", &dataset.manifest.training),
+                part("validation", &dataset.manifest.validation),
+            ]))?;
+            ui.print(&format!("hash {}\n{}\n", dataset.manifest.hash, self.out.display()))?;
+        }
+        Ok(Verdict::Fine)
+    }
+}
+
+/// The dataset of a configuration, and its pixels.
+pub fn build(config: &Config, ui: &Ui) -> anyhow::Result<(Dataset, [FragmentList; 2])> {
+    let progress = ui.progress("generate", config.dataset.training_pairs + config.dataset.validation_pairs);
+    let built = dataset::build(&config.name, config.seed, &config.synth, &config.dataset, &|n| progress.set(n, "pairs"));
+    progress.finish();
+    Ok(built?)
+}

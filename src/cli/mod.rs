@@ -1,0 +1,89 @@
+//! The command line: the only place that parses arguments, shows progress and prints.
+
+mod check;
+mod config;
+mod export;
+mod generate;
+mod import;
+mod interrupt;
+mod predict;
+mod run;
+mod train;
+mod ui;
+
+use clap::{Args, Parser, Subcommand};
+use std::process::ExitCode;
+use ui::Ui;
+
+/// Train, export and check tiny networks for order-independent transparency.
+#[derive(Parser)]
+#[command(name = "nmt", version, max_term_width = 100)]
+struct Cli {
+    #[command(flatten)]
+    global: Global,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// Options of every subcommand.
+#[derive(Args)]
+struct Global {
+    /// Show no progress and no warnings.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+    /// Print one JSON object instead of text.
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// The main job: generate, train, evaluate, export and check in one go.
+    Run(run::Run),
+    /// Generate a dataset of random pixels: features, targets, manifest.
+    Generate(generate::Generate),
+    /// Train a network.
+    Train(train::Train),
+    /// Export a network as WGSL, GLSL, JSON and ONNX.
+    Export(export::Export),
+    /// Check exports against the network.
+    Check(check::Check),
+    /// Answer the fragments of a file: transmittance of each.
+    Predict(predict::Predict),
+    /// Make a model file from the weights of another program.
+    Import(import::Import),
+}
+
+/// How a command that did its work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    Fine,
+    CheckFailed,
+    Interrupted,
+}
+
+/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
+/// it was interrupted.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    interrupt::install();
+    let ui = Ui::new(cli.global.quiet, cli.global.json);
+    let done = match cli.command {
+        Command::Run(c) => c.execute(&ui),
+        Command::Generate(c) => c.execute(&ui),
+        Command::Train(c) => c.execute(&ui),
+        Command::Export(c) => c.execute(&ui),
+        Command::Check(c) => c.execute(&ui),
+        Command::Predict(c) => c.execute(&ui),
+        Command::Import(c) => c.execute(&ui),
+    };
+    match done {
+        Ok(Verdict::Fine) => ExitCode::SUCCESS,
+        Ok(Verdict::CheckFailed) => ExitCode::from(1),
+        Ok(Verdict::Interrupted) => ExitCode::from(interrupt::EXIT_CODE),
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! What a person or a script sees: results on stdout, progress and warnings on stderr.
+
+use anyhow::Context;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::{Value, json};
+use std::cell::Cell;
+use std::io::{IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+/// How to talk to the user.
+pub struct Ui {
+    quiet: bool,
+    json: bool,
+}
+
+impl Ui {
+    pub fn new(quiet: bool, json: bool) -> Self {
+        Self { quiet, json }
+    }
+
+    /// Whether results are wanted as JSON.
+    pub fn json(&self) -> bool {
+        self.json
+    }
+
+    /// The same, without results on stdout: for stages of a larger command.
+    pub fn stage(&self) -> Self {
+        Self { quiet: self.quiet, json: false }
+    }
+
+    /// Progress over `length` units: a bar on a terminal, a line now and then elsewhere, nothing under `--quiet`.
+    pub fn progress(&self, name: &'static str, length: u64) -> Progress {
+        let terminal = std::io::stderr().is_terminal();
+        let target = if self.quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(Some(length), target);
+        let style = ProgressStyle::with_template("{prefix:<10} [{bar:32}] {pos}/{len} {msg} (ETA {eta})").expect("a valid template");
+        bar.set_style(style.progress_chars("=> "));
+        bar.set_prefix(name);
+        Progress { bar, name, lines: !self.quiet && !terminal, last_line: Cell::new(Instant::now()) }
+    }
+
+    /// Prints the one JSON object of a command.
+    pub fn print_json(&self, command: &str, results: Vec<Value>) -> anyhow::Result<()> {
+        self.print(&format!("{}\n", serde_json::to_string_pretty(&report(command, results))?))
+    }
+
+    /// Prints results.
+    pub fn print(&self, text: &str) -> anyhow::Result<()> {
+        match std::io::stdout().write_all(text.as_bytes()) {
+            // A reader that has seen enough, as `head` does, is no error.
+            Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+            other => other.context("cannot write to standard output"),
+        }
+    }
+}
+
+/// The object that `--json` prints.
+pub fn report(command: &str, results: Vec<Value>) -> Value {
+    json!({ "command": command, "version": env!("CARGO_PKG_VERSION"), "machine": machine(), "results": results })
+}
+
+/// Progress of one piece of work.
+pub struct Progress {
+    bar: ProgressBar,
+    name: &'static str,
+    lines: bool,
+    last_line: Cell<Instant>,
+}
+
+impl Progress {
+    /// So much is done; `message` is what else is known.
+    pub fn set(&self, position: u64, message: impl Into<String>) {
+        self.bar.set_position(position);
+        let message = message.into();
+        if self.lines && self.last_line.get().elapsed() > Duration::from_secs(10) {
+            eprintln!("{}: {position}/{} {message}", self.name, self.bar.length().unwrap_or(0));
+            self.last_line.set(Instant::now());
+        }
+        self.bar.set_message(message);
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// The machine, as far as it matters for a measurement.
+pub fn machine() -> Value {
+    let cpu = std::fs::read_to_string("/proc/cpuinfo")
+        .ok()
+        .and_then(|text| text.lines().find_map(|l| l.strip_prefix("model name")).map(|l| l.trim_start_matches([' ', '\t', ':']).to_owned()));
+    json!({
+        "cpu": cpu,
+        "threads": std::thread::available_parallelism().map_or(1, usize::from),
+        "os": std::env::consts::OS,
+        "arch": std::env::consts::ARCH,
+    })
+}
+
+/// Rows as text in aligned columns; the first row is the head.
+pub fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(|c| rows.iter().filter_map(|r| r.get(c)).map(|t| t.chars().count()).max().unwrap_or(0)).collect();
+    let line = |row: &Vec<String>| {
+        let cells: Vec<String> = row.iter().zip(&widths).map(|(text, &width)| format!("{text:<width$}")).collect();
+        format!("{}\n", cells.join("  ").trim_end())
+    };
+    let mut text = String::new();
+    for (index, row) in rows.iter().enumerate() {
+        text += &line(row);
+        if index == 0 {
+            text += &line(&widths.iter().map(|&w| "-".repeat(w)).collect());
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_aligned() {
+        let rows = [["format", "error"], ["wgsl", "1e-7"]].map(|r| r.map(str::to_owned).to_vec());
+        assert_eq!(table(&rows), "format  error\n------  -----\nwgsl    1e-7\n");
+    }
+}

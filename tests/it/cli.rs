@@ -1,0 +1,396 @@
+//! The command line as a user types it.
+
+use assert_cmd::Command;
+use assert_cmd::assert::Assert;
+use predicates::prelude::PredicateBooleanExt;
+use predicates::str::contains;
+use std::path::Path;
+
+/// A folder of a test's own, with a configuration that takes well under a second.
+pub struct Workplace(tempfile::TempDir);
+
+const TINY: &str = r#"
+name = "tiny"
+seed = 5
+[synth]
+fragments = { min = 2, max = 8 }
+depth = { min = 0.3, max = 1.0 }
+alpha = { min = 0.1, max = 0.5 }
+camera = { near = 0.1, far = 100.0 }
+[dataset]
+features = "paper"
+training_pairs = 2000
+validation_pairs = 500
+[train]
+hidden = [8, 4]
+epochs = 4
+batch = 256
+learning_rate = 1e-2
+[evaluate]
+pairs = 1000
+"#;
+
+impl Workplace {
+    pub fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("tiny.toml"), TINY).unwrap();
+        Self(folder)
+    }
+
+    pub fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    pub fn config(&self) -> String {
+        self.path("tiny.toml")
+    }
+
+    fn write(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.0.path().join(name), text).unwrap();
+        self.path(name)
+    }
+
+    /// A trained model.
+    fn model(&self) -> String {
+        nmt(&["train", &self.config(), "--out", &self.path("m.json")]).success();
+        self.path("m.json")
+    }
+}
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("nmt").unwrap();
+    command.args(arguments);
+    command
+}
+
+pub fn nmt(arguments: &[&str]) -> Assert {
+    command(arguments).assert()
+}
+
+fn json(assert: Assert) -> serde_json::Value {
+    serde_json::from_slice(&assert.success().get_output().stdout).unwrap()
+}
+
+/// The main job: everything in one go, a table in the end, files where it says, and again over its own folder.
+#[test]
+fn run_makes_and_checks_everything() {
+    let at = Workplace::new();
+    let out = at.path("out");
+    let run = || nmt(&["run", &at.config(), "--out", &out]);
+    run().success().stdout(contains("validation T-MSE").and(contains("wgsl-packed")).and(contains("worst export error")));
+    for file in [
+        "run.json",
+        "model.json",
+        "model.losses.csv",
+        "dataset/manifest.json",
+        "dataset/training_features.npy",
+        "exports/tiny.wgsl",
+        "exports/tiny.packed.wgsl",
+        "exports/tiny.glsl",
+        "exports/tiny.packed.glsl",
+        "exports/tiny.json",
+        "exports/tiny.onnx",
+    ] {
+        assert!(Path::new(&out).join(file).is_file(), "{file}");
+    }
+    assert!(!Path::new(&out).join("model.checkpoint.json").exists());
+    let model = std::fs::read(at.path("out/model.json")).unwrap();
+    let exported = std::fs::read(at.path("out/exports/tiny.json")).unwrap();
+    assert_eq!(model, exported, "the JSON export is the model file");
+    run().success();
+    let results: serde_json::Value = serde_json::from_slice(&std::fs::read(at.path("out/run.json")).unwrap()).unwrap();
+    let result = &results["results"][0];
+    assert_eq!((results["command"].as_str(), result["network"].as_str(), result["backend"].as_str()), (Some("run"), Some("7-8-4-1"), Some("flex")));
+    for key in ["transmittance_mse", "validation_loss", "samples_per_second", "total_seconds"] {
+        assert!(result[key].as_f64().unwrap() > 0.0, "{key}");
+    }
+    assert_eq!(result["nonfinite"], 0);
+    // The shader's header states what was measured.
+    let header = std::fs::read_to_string(at.path("out/exports/tiny.wgsl")).unwrap();
+    assert!(header.contains("mean squared error of T") && header.contains("seed 5"));
+}
+
+#[test]
+fn run_leaves_folders_of_others_alone() {
+    let at = Workplace::new();
+    std::fs::create_dir(at.path("out")).unwrap();
+    at.write("out/thesis.txt", "mine");
+    nmt(&["run", &at.config(), "--out", &at.path("out")]).code(2).stderr(contains("did not make"));
+    assert_eq!(std::fs::read_dir(at.path("out")).unwrap().count(), 1);
+}
+
+#[test]
+fn generate_is_repeatable_and_overwrites_nothing() {
+    let at = Workplace::new();
+    let generate = |out: &str, more: &[&str]| nmt(&[&["generate", &at.config(), "--json", "--out", &at.path(out)], more].concat());
+    let first = json(generate("a", &["--fragments", &at.path("a.npz")]));
+    let second = json(generate("b", &["--fragments", &at.path("b.npz")]));
+    assert_eq!(first["results"][0]["hash"], second["results"][0]["hash"]);
+    assert_eq!(std::fs::read(at.path("a.npz")).unwrap(), std::fs::read(at.path("b.npz")).unwrap());
+    for file in ["training_features.npy", "validation_targets.npy", "manifest.json"] {
+        assert_eq!(std::fs::read(at.path("a").to_owned() + "/" + file).unwrap(), std::fs::read(at.path("b").to_owned() + "/" + file).unwrap());
+    }
+    generate("a", &[]).code(2).stderr(contains("--force"));
+    generate("c", &["--fragments", &at.path("a.npz")]).code(2).stderr(contains("a.npz: already exists"));
+    generate("a", &["--force"]).success();
+}
+
+/// The sample in `data/` is what its command makes, on this machine too.
+#[test]
+fn the_sample_is_what_its_command_makes() {
+    let at = Workplace::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let config = root.join("configs/sample.toml");
+    nmt(&["generate", config.to_str().unwrap(), "--out", &at.path("sample"), "--fragments", &at.path("sample.npz")]).success();
+    let mut files: Vec<String> =
+        std::fs::read_dir(root.join("data/sample")).unwrap().map(|e| format!("sample/{}", e.unwrap().file_name().to_str().unwrap())).collect();
+    files.push("sample.npz".to_owned());
+    assert_eq!(files.len(), 8);
+    for file in files {
+        assert!(std::fs::read(root.join("data").join(&file)).unwrap() == std::fs::read(at.path(&file)).unwrap(), "{file}");
+    }
+}
+
+/// Every configuration that is shipped is valid; a dataset of a few pixels is made of each.
+#[test]
+fn shipped_configurations_are_valid() {
+    let at = Workplace::new();
+    let mut count = 0;
+    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("configs")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let small: String = text
+            .lines()
+            .map(|l| if l.contains("_pairs = ") { format!("{} = 50\n", l.split(" = ").next().unwrap()) } else { format!("{l}\n") })
+            .collect();
+        nmt(&["generate", &at.write("small.toml", &small), "--out", &at.path(&format!("d{count}"))]).success();
+        count += 1;
+    }
+    assert!(count >= 2);
+}
+
+#[test]
+fn threads_change_no_byte() {
+    let at = Workplace::new();
+    for threads in ["1", "3"] {
+        command(&["generate", &at.config(), "--out", &at.path(threads)]).env("RAYON_NUM_THREADS", threads).assert().success();
+    }
+    let read = |threads: &str| std::fs::read(at.path(threads) + "/manifest.json").unwrap();
+    assert_eq!(read("1"), read("3"));
+}
+
+#[test]
+fn train_export_check_predict() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["train", &at.config(), "--out", &model]).code(2).stderr(contains("already exists"));
+    nmt(&["train", &at.config(), "--out", &at.path("n.json"), "--backend", "ndarray", "--epochs", "2"]).success();
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "wgsl,onnx"]).success().stdout(contains("tiny.packed.wgsl"));
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "onnx"]).code(2).stderr(contains("--force"));
+    nmt(&["check", &model, "--exports", &at.path("e"), "--format", "wgsl,onnx"]).success().stdout(contains("weights bit for bit"));
+    nmt(&["check", &model, "--exports", &at.path("e")]).code(1).stdout(contains("tiny.glsl").and(contains("nmt export")));
+    let report = json(nmt(&["check", &model, "--exports", &at.path("e"), "--format", "onnx", "--json"]));
+    let numbers = report["results"].as_array().unwrap().iter().find(|r| r["tool"] == "rten").unwrap();
+    assert_eq!((numbers["status"].as_str(), numbers["numbers"][0]["count"].as_u64()), (Some("passed"), Some(100_000)));
+
+    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--fragments", &at.path("f.npz")]).success();
+    let predict = |more: &[&str]| nmt(&[&["predict", &model, "--fragments", &at.path("f.npz"), "--out", &at.path("t.npy")], more].concat());
+    predict(&[]).success().stdout(contains("T-MSE"));
+    predict(&[]).code(2).stderr(contains("already exists"));
+    let report = json(predict(&["--force", "--json"]));
+    assert!(report["results"][0]["transmittance_mse"].as_f64().unwrap() < 0.2);
+    predict(&["--force", "--near", "5", "--far", "100"]).code(2).stderr(contains("outside the camera planes"));
+    predict(&["--force", "--near", "5"]).code(2);
+}
+
+/// An export in which one digit was changed by hand does not pass.
+#[test]
+fn check_finds_an_edited_export() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "glsl"]).success();
+    let path = at.path("e/tiny.glsl");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (head, weights) = text.split_once("NMT_W2").unwrap();
+    let changed = weights.replacen("0.", "1.", 1);
+    std::fs::write(&path, format!("{head}NMT_W2{changed}")).unwrap();
+    nmt(&["check", &model, "--exports", &at.path("e"), "--format", "glsl"]).code(1).stdout(contains("NMT_W2: number").and(contains("worst error")));
+}
+
+#[test]
+fn required_tools_are_conditions() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "onnx"]).success();
+    let check = || command(&["check", &model, "--exports", &at.path("e"), "--format", "onnx"]);
+    let without = || {
+        let mut command = check();
+        command.env_remove("ORT_DYLIB_PATH").env_remove("NMT_REQUIRE");
+        command
+    };
+    without().assert().success().stdout(contains("skipped onnx, onnxruntime"));
+    without().env("NMT_REQUIRE", "onnxruntime").assert().code(1).stdout(contains("required, but"));
+    without().env("ORT_DYLIB_PATH", at.path("none.so")).assert().success().stdout(contains("is not a file"));
+    without().env("ORT_DYLIB_PATH", at.write("no.so", "not a library")).assert().code(1).stdout(contains("FAILED onnx, onnxruntime"));
+    without().args(["--require", "tea"]).assert().code(2).stderr(contains("'tea'"));
+}
+
+/// Where onnxruntime is, it runs; `scripts/test` brings it.
+#[test]
+fn onnxruntime_computes_the_reference() {
+    let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
+    if std::env::var_os("ORT_DYLIB_PATH").is_none() && !required.split(',').any(|t| t == "onnxruntime") {
+        eprintln!("SKIPPED: ORT_DYLIB_PATH is not set; scripts/test sets it");
+        return;
+    }
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "onnx"]).success();
+    let report = json(nmt(&["check", &model, "--exports", &at.path("e"), "--format", "onnx", "--json", "--require", "onnxruntime"]));
+    let found = report["results"].as_array().unwrap().iter().find(|r| r["tool"] == "onnxruntime").unwrap();
+    assert_eq!((found["status"].as_str(), found["numbers"][0]["count"].as_u64()), (Some("passed"), Some(100_000)), "{found}");
+}
+
+#[test]
+fn import_takes_foreign_weights() {
+    let at = Workplace::new();
+    let row = "[0.5, -0.25],".repeat(6) + "[1, 2]";
+    let foreign = at.write(
+        "w.json",
+        &format!(r#"{{"source": "elsewhere", "layers": [{{"weights": [{row}], "bias": [0, 1]}}, {{"weights": [[1], [1]], "biases": [0]}}]}}"#),
+    );
+    nmt(&["import", &foreign, "--out", &at.path("i.json")]).success().stdout(contains("7-2-1"));
+    nmt(&["export", &at.path("i.json"), "--out", &at.path("e")]).success();
+    nmt(&["check", &at.path("i.json"), "--exports", &at.path("e")]).success();
+    nmt(&["import", &foreign, "--out", &at.path("j.json"), "--features", "none"]).code(2).stderr(contains("known are paper"));
+    nmt(&["import", &at.config(), "--out", &at.path("j.json")]).code(2).stderr(contains("not a model file"));
+    assert!(!Path::new(&at.path("j.json")).exists());
+}
+
+/// Every error of a configuration names the file and the field; nothing is written.
+#[test]
+fn bad_configurations() {
+    let at = Workplace::new();
+    let mut messages = Vec::new();
+    for (from, to) in [
+        ("seed = 5", "seed = 5\nsurprise = 1"),
+        ("min = 2, max = 8", "min = 0, max = 8"),
+        ("min = 2, max = 8", "min = 9, max = 8"),
+        ("min = 0.1, max = 0.5", "min = 0.5, max = 0.1"),
+        ("min = 0.1, max = 0.5", "min = nan, max = 0.5"),
+        ("near = 0.1", "near = 200.0"),
+        ("features = \"paper\"", "features = \"mine\""),
+        ("training_pairs = 2000", "training_pairs = 0"),
+        ("hidden = [8, 4]", "hidden = [0]"),
+        ("epochs = 4", "epochs = 0"),
+        ("learning_rate = 1e-2", "learning_rate = inf"),
+        ("name = \"tiny\"", "name = \"../tiny\""),
+        ("pairs = 1000\n", "pairs = 0\n"),
+        ("[train]", "[trian]"),
+        ("[synth]", "[synth"),
+    ] {
+        assert!(TINY.contains(from), "{from}");
+        let path = at.write("bad.toml", &TINY.replacen(from, to, 1));
+        let assert = nmt(&["run", &path, "--out", &at.path("out")]).code(2);
+        let message = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+        messages.push(message.replace(&path, "bad.toml"));
+    }
+    assert!(!Path::new(&at.path("out")).exists());
+    insta::assert_snapshot!(messages.join("\n"));
+}
+
+#[test]
+fn bad_files() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--fragments", &at.path("f.npz")]).success();
+    let whole = std::fs::read(at.path("f.npz")).unwrap();
+    std::fs::write(at.path("cut.npz"), &whole[..whole.len() / 2]).unwrap();
+    let predict = |fragments: &str| nmt(&["predict", &model, "--fragments", fragments, "--out", &at.path("t.npy")]).code(2);
+    predict(&at.path("cut.npz")).stderr(contains("cut.npz: not a readable .npz archive"));
+    predict(&at.config()).stderr(contains("not a readable .npz archive"));
+    predict(&at.path("none.npz")).stderr(contains("none.npz: cannot read"));
+    assert!(!Path::new(&at.path("t.npy")).exists());
+    nmt(&["export", &at.config(), "--out", &at.path("e")]).code(2).stderr(contains("not a model file"));
+    nmt(&["export", &at.path("none.json"), "--out", &at.path("e")]).code(2).stderr(contains("none.json: cannot read"));
+    let newer = std::fs::read_to_string(&model).unwrap().replacen("\"version\": 1", "\"version\": 9", 1);
+    nmt(&["export", &at.write("newer.json", &newer), "--out", &at.path("e")]).code(2).stderr(contains("version 9"));
+    nmt(&["train", &at.config(), "--out", &at.path("x.json"), "--dataset", &at.path("e")]).code(2).stderr(contains("manifest.json: cannot read"));
+    let other = at.write("other.toml", &TINY.replacen("seed = 5", "seed = 6", 1));
+    nmt(&["train", &other, "--out", &at.path("x.json"), "--dataset", &at.path("d")]).code(2).stderr(contains("another configuration"));
+    assert!(!Path::new(&at.path("e")).exists() && !Path::new(&at.path("x.json")).exists());
+}
+
+/// A file stands where a folder is needed: as refused by the system as a read-only folder is, also for root.
+#[test]
+fn unusable_output_folders() {
+    let at = Workplace::new();
+    let model = at.model();
+    let file = at.write("file", "");
+    let inside = file.clone() + "/x";
+    nmt(&["generate", &at.config(), "--out", &inside]).code(2).stderr(contains("cannot create the folder"));
+    nmt(&["export", &model, "--out", &inside]).code(2).stderr(contains("cannot create the folder"));
+    nmt(&["run", &at.config(), "--out", &file]).code(2).stderr(contains("output folder"));
+    nmt(&["train", &at.config(), "--out", &(inside + "/m.json")]).code(2).stderr(contains("cannot create the folder"));
+}
+
+/// A full disk: the error says so, and no file is left.
+#[cfg(target_os = "linux")]
+#[test]
+fn full_disk() {
+    let at = Workplace::new();
+    let model = at.model();
+    // A limit on the size of files fails a write as a full disk does. SIGXFSZ is ignored, so that the write itself reports it.
+    let script = format!("trap '' XFSZ; ulimit -f 1; exec '{}' export '{model}' --out '{}' --format wgsl", env!("CARGO_BIN_EXE_nmt"), at.path("e"));
+    Command::new("bash").args(["-c", &script]).assert().code(2).stderr(contains("tiny.wgsl").and(contains("disk full")));
+    assert_eq!(std::fs::read_dir(at.path("e")).unwrap().count(), 0, "something half-written was left");
+}
+
+/// Ctrl-C in training: exit code 130, a checkpoint, and `--resume` ends with the very model of an undisturbed training.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_a_resumable_checkpoint() {
+    use std::process::{Command as Process, Stdio};
+    let at = Workplace::new();
+    let config = at.write("long.toml", &TINY.replacen("epochs = 4", "epochs = 2000\ncheckpoint_every = 1", 1));
+    let out = at.path("long.json");
+    let checkpoint = at.path("long.checkpoint.json");
+    let mut child =
+        Process::new(env!("CARGO_BIN_EXE_nmt")).args(["train", &config, "--out", &out]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let epochs = || -> usize {
+        let text = std::fs::read(&checkpoint).unwrap_or_default();
+        serde_json::from_slice::<serde_json::Value>(&text).ok().and_then(|v| v["history"].as_array().map(Vec::len)).unwrap_or(0)
+    };
+    while epochs() < 3 {
+        assert!(child.try_wait().unwrap().is_none(), "training ended before it was interrupted");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(Process::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let done = epochs();
+    assert!((3..2000).contains(&done) && !Path::new(&out).exists());
+
+    // Without a word about the checkpoint nothing is thrown away.
+    nmt(&["train", &config, "--out", &out]).code(2).stderr(contains("--resume"));
+    let target = (done + 5).to_string();
+    nmt(&["train", &config, "--out", &out, "--resume", "--epochs", &target]).success();
+    assert!(!Path::new(&checkpoint).exists());
+    nmt(&["train", &config, "--out", &out, "--resume"]).code(2).stderr(contains("already exists"));
+    nmt(&["train", &config, "--out", &at.path("straight.json"), "--epochs", &target]).success();
+    let layers = |path: &str| serde_json::from_slice::<serde_json::Value>(&std::fs::read(path).unwrap()).unwrap()["layers"].clone();
+    assert_eq!(layers(&out), layers(&at.path("straight.json")));
+}
+
+#[test]
+fn help_and_usage() {
+    nmt(&["--help"]).success().stdout(contains("predict").and(contains("Ctrl").not()));
+    nmt(&["--version"]).success().stdout(contains(env!("CARGO_PKG_VERSION")));
+    nmt(&[]).code(2);
+    nmt(&["bake"]).code(2);
+    let at = Workplace::new();
+    // Results on stdout, and nothing on stderr under --quiet.
+    nmt(&["train", &at.config(), "--out", &at.path("q.json"), "--quiet"]).success().stderr("").stdout(contains("q.json"));
+}
