@@ -5,6 +5,14 @@ use crate::pixel::{DepthError, Pixel, ViewZ};
 /// Names of the columns.
 pub const COLUMNS: [&str; 3] = ["depth", "alpha_sum", "n"];
 
+/// What the columns mean.
+pub const DESCRIPTION: [&str; 4] = [
+    "v is distance along the view direction; v_min and v_max are its extremes over the whole scene.",
+    "depth = (v - v_min) / (v_max - v_min), clamped to [0, 1], 0 where v_min = v_max;",
+    "alpha_sum = sum of alpha and n = number of fragments of the pixel, over all of its fragments.",
+    "The answer is what front-to-back blending has left when it reaches the fragment; use it as the weight of weighted blended transparency.",
+];
+
 /// Linear depth relative to a range: d = (v − v0)/(v1 − v0), clamped to [0, 1]; 0 where v0 = v1.
 ///
 /// DWB22's shader takes the view depth itself, in scene units, which ties a network to the one scene that it was trained on. Here it is measured

@@ -88,6 +88,7 @@ impl FeatureSet {
     pub fn description(self) -> &'static [&'static str] {
         match self {
             Self::Paper => &paper::DESCRIPTION,
+            Self::DeepWeightedBlended => &deep_weighted_blended::DESCRIPTION,
         }
     }
 

@@ -70,8 +70,8 @@ mod tests {
     use crate::train::schedule::Job;
     use crate::train::{Backend, Outcome, TrainConfig, train};
 
+    /// The part of the configuration that the library knows.
     #[derive(serde::Deserialize)]
-    #[serde(deny_unknown_fields)]
     struct Config {
         name: String,
         seed: u64,
@@ -96,7 +96,7 @@ mod tests {
         let provenance = Provenance::default();
         let job = Job { name: "deep", config, seed: 5, backend: Backend::Flex, checkpoint: &checkpoint, resume: false, provenance };
         match train(dataset, &job, &|| false, &mut |_| {}).unwrap() {
-            Outcome::Finished { mlp, .. } => mlp,
+            Outcome::Finished { mlp, .. } => *mlp,
             other => panic!("{other:?}"),
         }
     }
