@@ -48,13 +48,13 @@ pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
     let synth = match mlp.provenance.config.as_ref().and_then(|c| c.get("synth")) {
         Some(synth) => serde_json::from_value(synth.clone()).map_err(|e| format!("provenance.config.synth: {e}"))?,
         None => match mlp.feature_set() {
-            FeatureSet::Paper => SynthConfig::paper(),
+            FeatureSet::Paper | FeatureSet::DeepWeightedBlended => SynthConfig::paper(),
         },
     };
     let camera = synth.camera;
     let source = Synth::new(synth, SEED).map_err(|e| format!("provenance.config: {e}"))?;
     let list = pixels_holding(&source, Purpose::Evaluation, count as u64, &|_| {});
-    let extractor = Extractor::new(mlp.feature_set(), Some(camera)).map_err(|e| e.to_string())?;
+    let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), None).map_err(|e| e.to_string())?;
     let mut features = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
     features.truncate(count * mlp.feature_set().width());
     Ok(CheckRows { kind: RowKind::InDistribution, features })

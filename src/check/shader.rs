@@ -195,6 +195,33 @@ mod tests {
         assert_eq!(literal_indices(&indexed), Err("function 'f' has a run-time index".to_owned()));
     }
 
+    /// DWB22's features: depths in the range, at its ends, outside, and where it is empty; and the network behind them.
+    #[test]
+    fn the_features_of_deep_weighted_blended_and_their_network() {
+        use crate::features::{FeatureSet, deep_weighted_blended::LinearRange};
+        use crate::model::{Dense, Provenance};
+        use crate::pixel::ViewZ;
+        let layer = Dense::new(3, 1, vec![-2.0, 0.25, 0.125], vec![0.5]).unwrap();
+        let mlp = Mlp::new("deep", FeatureSet::DeepWeightedBlended, vec![layer], Provenance::default()).unwrap();
+        for format in SHADERS {
+            let text = source(&mlp, format);
+            let module = parse(format, &text).unwrap();
+            weights(format, &module, &mlp).unwrap();
+            let interpreter = Interpreter::new(&module);
+            for (v, v0, v1) in [(3.0, 2.0, 6.0), (2.0, 2.0, 6.0), (6.0, 2.0, 6.0), (1.0, 2.0, 6.0), (9.0, 2.0, 6.0), (2.0, 2.0, 2.0)] {
+                let arguments = [v, v0, v1, 1.5, 4.0].map(|x| Value::<1>::Uniform(x as f32)).to_vec();
+                let found = interpreter.call("nmt_features", arguments).unwrap().flatten().unwrap();
+                let depth = LinearRange::new(ViewZ(v0), ViewZ(v1)).unwrap().relative(ViewZ(v)) as f32;
+                assert_eq!(found, [depth, 1.5, 4.0], "{format:?} at {v}");
+                let out = interpreter.call_rows(ENTRY, &found, 3).unwrap()[0];
+                assert!((out - mlp.forward::<f32>(&found)).abs() < 1e-6);
+            }
+            if let Some(result) = text.contains("float nmt").then(|| glslang(&text)).flatten() {
+                result.unwrap();
+            }
+        }
+    }
+
     /// The shaders' feature functions against the f64 features of random pixels. Tolerance 3e-7 + 1e-6 relative: f32 depths in, a few
     /// operations. Control: without the least depth (w_min = 0) they are off.
     #[test]

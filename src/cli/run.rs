@@ -128,7 +128,7 @@ fn write_json(path: &Path, value: &Value) -> anyhow::Result<()> {
 fn evaluate(config: &Config, mlp: &Mlp) -> anyhow::Result<AbsoluteError> {
     let synth = Synth::new(config.synth.clone(), config.seed)?;
     let list = pixels_holding(&synth, Purpose::Evaluation, config.evaluate.pairs, &|_| {});
-    let rows = rows(&list, &Extractor::new(mlp.feature_set(), list.planes())?)?;
+    let rows = rows(&list, &Extractor::for_list(mlp.feature_set(), &list, None, None)?)?;
     Ok(transmittance_error(&mlp.forward_batch(&rows.features), &abuffer::list_transmittance(&list)))
 }
 

@@ -1,11 +1,16 @@
-//! Building datasets from random pixels.
+//! Building datasets from random pixels, or from the pixels of given lists.
 
-use super::file::{MANIFEST_VERSION, Manifest, Part};
+use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, Rows};
 use crate::features::{Extractor, FeatureSet};
-use crate::pixel::{DepthError, FragmentList, abuffer};
+use crate::numeric::rng::stream;
+use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
+use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
+
+/// Keeps the random numbers of the split into training and validation pixels apart from all others.
+const SPLIT_PURPOSE: u64 = 0x1004;
 
 /// Most rows that a dataset may be configured to have.
 pub const MOST_PAIRS: u64 = 1 << 30;
@@ -39,6 +44,25 @@ pub enum DatasetError {
     /// A fragment's depth does not fit the feature set.
     #[error(transparent)]
     Depth(#[from] DepthError),
+    /// A depth of a given list does not fit the feature set.
+    #[error("fragment list '{name}': {source}")]
+    ListDepth {
+        /// The list.
+        name: String,
+        /// What is wrong.
+        source: DepthError,
+    },
+    /// The given lists hold too little.
+    #[error(
+        "the fragment lists hold {found} fragments, too few for dataset.training_pairs + dataset.validation_pairs = {needed} of whole pixels; \
+         lower them, or add lists"
+    )]
+    TooFew {
+        /// Fragments of all lists.
+        found: u64,
+        /// Rows asked for.
+        needed: u64,
+    },
 }
 
 impl DatasetConfig {
@@ -56,13 +80,13 @@ impl DatasetConfig {
     }
 }
 
-/// Features and exact transmittance of every fragment of a list.
+/// Features of every fragment of a list and the exact answers that the feature set is trained on.
 ///
 /// # Errors
 /// [`DepthError`] where a fragment's depth does not fit the feature set.
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
     let features = extractor.list(list, 0..list.pixels())?;
-    let targets = abuffer::list_transmittance(list).into_iter().map(|t| t as f32).collect();
+    let targets = extractor.set().target().of_list(list).into_iter().map(|t| t as f32).collect();
     let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len())).collect();
     Ok(Rows { feature_set: extractor.set(), features, targets, pixels })
 }
@@ -101,15 +125,100 @@ pub fn build(
 ) -> Result<(Dataset, [FragmentList; 2]), DatasetError> {
     config.validate()?;
     let source = Synth::new(synth.clone(), seed)?;
-    let extractor = Extractor::new(config.features, Some(synth.camera))?;
     let training_pixels = pixels_holding(&source, Purpose::Training, config.training_pairs, progress);
     let made = training_pixels.len() as u64;
     let validation_pixels = pixels_holding(&source, Purpose::Validation, config.validation_pairs, &|n| progress(made + n));
+    // One scene has one depth range: validation pixels are seen with that of the training pixels.
+    let extractor = Extractor::for_list(config.features, &training_pixels, None, None)?;
     let training = rows(&training_pixels, &extractor)?;
     let validation = rows(&validation_pixels, &extractor)?;
-    let parts = [("training", &training, &training_pixels), ("validation", &validation, &validation_pixels)]
-        .map(|(part, rows, pixels)| Part::of(part, rows, pixels.pixels()));
-    let [training_part, validation_part] = parts;
+    let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
+    Ok((dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels), [training_pixels, validation_pixels]))
+}
+
+/// Builds a dataset of pixels drawn at random, without repetition, from given lists; `lists` are their names, which the manifest keeps, and they.
+///
+/// The pixels are split, not the rows: none serves both training and validation. Depths are taken relative to the whole list that a pixel is of.
+///
+/// # Errors
+/// [`DatasetError::TooFew`] where the lists do not hold as many fragments as asked for; [`DatasetError::ListDepth`] names the list whose depths do
+/// not fit the feature set.
+pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], config: &DatasetConfig) -> Result<Dataset, DatasetError> {
+    config.validate()?;
+    let mut pixels: Vec<(u32, u32)> = Vec::new();
+    for (index, (_, list)) in lists.iter().enumerate() {
+        pixels.extend((0..list.pixels()).filter(|&p| !list.range(p).is_empty()).map(|p| (index as u32, p as u32)));
+    }
+    pixels.shuffle(&mut stream(seed, SPLIT_PURPOSE, 0));
+    let mut rest = pixels.as_slice();
+    let mut take = |pairs: u64| {
+        let mut taken = 0;
+        let mut end = 0;
+        while taken < pairs {
+            let &(list, p) = rest.get(end)?;
+            taken += lists[list as usize].1.range(p as usize).len() as u64;
+            end += 1;
+        }
+        let (head, tail) = rest.split_at(end);
+        rest = tail;
+        let mut chosen = head.to_vec();
+        chosen.sort_unstable();
+        Some(chosen)
+    };
+    let (Some(validation), Some(training)) = (take(config.validation_pairs), take(config.training_pairs)) else {
+        let found = lists.iter().map(|(_, list)| list.len() as u64).sum();
+        return Err(DatasetError::TooFew { found, needed: config.training_pairs + config.validation_pairs });
+    };
+    let mut extractors = Vec::with_capacity(lists.len());
+    for &(name, list) in lists {
+        let in_list = |source| DatasetError::ListDepth { name: name.to_owned(), source };
+        extractors.push(Extractor::for_list(config.features, list, None, None).map_err(in_list)?);
+    }
+    let rows_of = |chosen: &[(u32, u32)]| {
+        let mut all = Rows { feature_set: config.features, features: Vec::new(), targets: Vec::new(), pixels: Vec::new() };
+        let mut before = 0;
+        for of_one in chosen.chunk_by(|a, b| a.0 == b.0) {
+            let index = of_one[0].0 as usize;
+            let part = selected(lists[index].1, of_one);
+            let in_list = |source| DatasetError::ListDepth { name: lists[index].0.to_owned(), source };
+            let Rows { features, targets, pixels, .. } = rows(&part, &extractors[index]).map_err(in_list)?;
+            all.features.extend(features);
+            all.targets.extend(targets);
+            all.pixels.extend(pixels.into_iter().map(|p| p + before));
+            before += of_one.len() as u32;
+        }
+        Ok::<_, DatasetError>(all)
+    };
+    let rows = [rows_of(&training)?, rows_of(&validation)?];
+    let sources = lists.iter().map(|(name, list)| ListSource::of(name, list)).collect();
+    Ok(dataset(name, seed, config, None, sources, rows, [training.len(), validation.len()]))
+}
+
+/// Some pixels of a list, in order, without colours.
+fn selected(list: &FragmentList, pixels: &[(u32, u32)]) -> FragmentList {
+    let mut offsets = vec![0];
+    let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
+    for &(_, p) in pixels {
+        let pixel = list.pixel(p as usize);
+        view_z.extend_from_slice(pixel.view_z);
+        alpha.extend_from_slice(pixel.alpha);
+        offsets.push(view_z.len() as u64);
+    }
+    FragmentList::new(offsets, view_z, alpha, None).expect("made of valid pixels")
+}
+
+/// Rows and their manifest; `pixels` counts those of either part.
+fn dataset(
+    name: &str,
+    seed: u64,
+    config: &DatasetConfig,
+    synth: Option<SynthConfig>,
+    lists: Vec<ListSource>,
+    [training, validation]: [Rows; 2],
+    pixels: [usize; 2],
+) -> Dataset {
+    let training_part = Part::of("training", &training, pixels[0]);
+    let validation_part = Part::of("validation", &validation, pixels[1]);
     let manifest = Manifest {
         format: "nmt-dataset".to_owned(),
         version: MANIFEST_VERSION,
@@ -117,19 +226,21 @@ pub fn build(
         seed,
         features: config.features,
         columns: config.features.columns().iter().map(|&c| c.to_owned()).collect(),
-        target: "transmittance".to_owned(),
-        synth: synth.clone(),
+        target: config.features.target().name().to_owned(),
+        synth,
+        lists,
         dataset: config.clone(),
         hash: Manifest::hash_of(&training_part, &validation_part),
         training: training_part,
         validation: validation_part,
     };
-    Ok((Dataset { training, validation, manifest }, [training_pixels, validation_pixels]))
+    Dataset { training, validation, manifest }
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::pixel::abuffer;
 
     pub(crate) fn small() -> (Dataset, [FragmentList; 2]) {
         let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 3000, validation_pairs: 500 };
@@ -165,6 +276,69 @@ pub(crate) mod tests {
         abuffer::transmittance(training.pixel(5), &mut exact);
         let stored = &dataset.training.targets[training.range(5)];
         assert!(exact.iter().zip(stored).all(|(e, &s)| *e as f32 == s));
+    }
+
+    fn deep() -> DatasetConfig {
+        DatasetConfig { features: FeatureSet::DeepWeightedBlended, training_pairs: 1500, validation_pairs: 500 }
+    }
+
+    #[test]
+    fn the_target_depends_on_the_feature_set() {
+        let (dataset, [training, _]) = build("deep", 3, &SynthConfig::paper(), &deep(), &|_| {}).unwrap();
+        let exact = abuffer::list_front_to_back_factor(&training);
+        assert!(exact.iter().zip(&dataset.training.targets).all(|(&e, &t)| e as f32 == t));
+        assert_eq!(dataset.manifest.target, "front-to-back-factor");
+        assert_eq!(small().0.manifest.target, "transmittance");
+    }
+
+    /// Pixels of two lists of different depth: none in both parts, each with the depth range and the answers of its own list.
+    #[test]
+    fn given_lists_are_split_by_pixel() {
+        let (_, [near, _]) = small();
+        let far: Vec<f32> = near.view_z().iter().map(|v| v + 1000.0).collect();
+        let far = FragmentList::new(near.offsets().to_vec(), far, near.alpha().to_vec(), None).unwrap();
+        let lists = [("near", &near), ("far", &far)];
+        let dataset = build_from_lists("two", 7, &lists, &deep()).unwrap();
+        assert!(dataset.training.len() >= 1500 && dataset.validation.len() >= 500);
+        assert_eq!(
+            dataset.manifest.lists.iter().map(|l| (l.name.as_str(), l.fragments)).collect::<Vec<_>>(),
+            [("near", near.len() as u64), ("far", far.len() as u64)]
+        );
+        let mut known = std::collections::HashMap::new();
+        for (index, (_, list)) in lists.into_iter().enumerate() {
+            let rows = rows(list, &Extractor::for_list(FeatureSet::DeepWeightedBlended, list, None, None).unwrap()).unwrap();
+            for p in 0..list.pixels() {
+                let features: Vec<u32> = rows.features[3 * list.range(p).start..3 * list.range(p).end].iter().map(|f| f.to_bits()).collect();
+                assert!(known.insert(features, (index, rows.targets[list.range(p)].to_vec())).is_none());
+            }
+        }
+        let mut seen = [false; 2];
+        for rows in [&dataset.training, &dataset.validation] {
+            let mut start = 0;
+            for same in rows.pixels.chunk_by(|a, b| a == b) {
+                let range = start..start + same.len();
+                start = range.end;
+                let features: Vec<u32> = rows.features[3 * range.start..3 * range.end].iter().map(|f| f.to_bits()).collect();
+                let (index, targets) = known.remove(&features).expect("a whole pixel of a list, used once");
+                seen[index] = true;
+                assert_eq!(rows.targets[range], targets);
+            }
+        }
+        assert_eq!(seen, [true; 2]);
+        assert_eq!(build_from_lists("two", 7, &lists, &deep()).unwrap(), dataset);
+        assert_ne!(build_from_lists("two", 8, &lists, &deep()).unwrap().manifest.hash, dataset.manifest.hash);
+    }
+
+    #[test]
+    fn lists_that_do_not_suffice() {
+        let (_, [list, _]) = small();
+        let config = DatasetConfig { training_pairs: list.len() as u64, ..deep() };
+        let error = build_from_lists("x", 1, &[("a", &list)], &config).unwrap_err();
+        assert!(matches!(error, DatasetError::TooFew { found, .. } if found == list.len() as u64), "{error}");
+        let without_planes = FragmentList::new(list.offsets().to_vec(), list.view_z().to_vec(), list.alpha().to_vec(), None).unwrap();
+        let paper = DatasetConfig { features: FeatureSet::Paper, ..deep() };
+        let error = build_from_lists("x", 1, &[("a", &without_planes)], &paper).unwrap_err();
+        assert!(error.to_string().starts_with("fragment list 'a': window depth needs the camera planes"), "{error}");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::features::FeatureSet;
 use crate::numeric::digest::sha256_hex;
 use crate::numeric::file::{FileError, Replace, create_folder, may_write, read, write_atomically};
 use crate::numeric::npy::{NpyError, encode, read_npy};
+use crate::pixel::FragmentList;
 use crate::synth::SynthConfig;
 use ndarray::{ArrayView1, ArrayView2};
 use serde::{Deserialize, Serialize};
@@ -37,8 +38,12 @@ pub struct Manifest {
     pub columns: Vec<String>,
     /// What the targets are.
     pub target: String,
-    /// Distribution of the pixels.
-    pub synth: SynthConfig,
+    /// Distribution of the pixels where they are random.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub synth: Option<SynthConfig>,
+    /// Fragment lists that the pixels were drawn from, where they are not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lists: Vec<ListSource>,
     /// Sizes asked for.
     pub dataset: DatasetConfig,
     /// SHA-256 over all arrays.
@@ -47,6 +52,30 @@ pub struct Manifest {
     pub training: Part,
     /// The validation rows.
     pub validation: Part,
+}
+
+/// A fragment list that pixels were drawn from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ListSource {
+    /// What it was called.
+    pub name: String,
+    /// Number of pixels.
+    pub pixels: u64,
+    /// Number of fragments.
+    pub fragments: u64,
+    /// SHA-256 of offsets (as u64), view depths and opacities, little-endian.
+    pub sha256: String,
+}
+
+impl ListSource {
+    /// Describes a list.
+    pub fn of(name: &str, list: &FragmentList) -> Self {
+        let offsets: Vec<u8> = list.offsets().iter().flat_map(|o| o.to_le_bytes()).collect();
+        let [view_z, alpha] = [list.view_z(), list.alpha()].map(|a| a.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>());
+        let sha256 = sha256_hex([offsets.as_slice(), &view_z, &alpha]);
+        Self { name: name.to_owned(), pixels: list.pixels() as u64, fragments: list.len() as u64, sha256 }
+    }
 }
 
 /// One of a dataset's two parts.

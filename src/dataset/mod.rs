@@ -3,7 +3,7 @@
 pub mod build;
 pub mod file;
 
-pub use build::{DatasetConfig, DatasetError, build};
+pub use build::{DatasetConfig, DatasetError, build, build_from_lists};
 
 use crate::features::FeatureSet;
 
@@ -14,7 +14,7 @@ pub struct Rows {
     pub feature_set: FeatureSet,
     /// `[N, W]`, row by row.
     pub features: Vec<f32>,
-    /// Transmittance, `[N]`.
+    /// The exact answers, `[N]`; of what, [`FeatureSet::target`] says.
     pub targets: Vec<f32>,
     /// Which pixel each row is of, `[N]`, counted from 0 within these rows.
     pub pixels: Vec<u32>,

@@ -30,6 +30,8 @@ impl Language {
         match (self, set) {
             (Self::Wgsl, FeatureSet::Paper) => include_str!("../features/paper.wgsl"),
             (Self::Glsl, FeatureSet::Paper) => include_str!("../features/paper.glsl"),
+            (Self::Wgsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.wgsl"),
+            (Self::Glsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.glsl"),
         }
     }
 

@@ -1,18 +1,30 @@
 //! Transparency methods: each adds something up per pixel, weights each fragment by it, and composites.
 
+pub mod abuffer;
+pub mod adaptive;
+pub mod deep_weighted_blended;
+pub mod depth_peeling;
+pub mod dual_depth_peeling;
 pub mod fourier_opacity;
+mod layered;
 pub mod low_resolution_moments;
 mod moment_based;
 pub mod moment_power;
 pub mod moment_transparency;
 pub mod moment_trig;
+pub mod multi_layer_alpha;
 pub mod neural;
 pub mod registry;
+#[cfg(test)]
+mod testing;
 pub mod two_moment_passes;
+pub mod weighted_average;
+pub mod weighted_blended;
+pub mod weighted_sum;
 
 pub use registry::{ParseError, all_names, parse};
 
-use crate::pixel::{CameraPlanes, DepthError, FragmentList, Pixel, abuffer};
+use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};
 use std::convert::Infallible;
 
 /// What a method must know besides the fragments.
@@ -93,7 +105,7 @@ pub trait Accumulated: Send + Sync {
 /// # Panics
 /// If the pixel has fragments and no colours.
 pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background: [f64; 3]) -> [f64; 3] {
-    composite_with_total(pixel, transmittances, abuffer::total_absorbance(pixel), background)
+    composite_with_total(pixel, transmittances, pixel::abuffer::total_absorbance(pixel), background)
 }
 
 /// [`composite_normalised`] with the total absorbance b0 as a method has kept it.
@@ -130,6 +142,7 @@ pub fn weights(list: &FragmentList, accumulated: &dyn Accumulated) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pixel::abuffer;
 
     /// With exact transmittances the normalised composite is the over operator.
     #[test]

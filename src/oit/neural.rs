@@ -1,13 +1,25 @@
 //! Neural moment transparency: a network answers from moments.
 
-use super::{Accumulated, Context, Method, MethodError};
+use super::registry::{Arguments, Entry, ParseError};
+use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::{Extractor, FeatureSet};
-use crate::model::Mlp;
+use crate::model::{Mlp, file};
 use crate::pixel::FragmentList;
+use std::path::Path;
 
 /// A network as a transparency method.
 pub struct Neural {
     mlp: Mlp,
+}
+
+/// The method by its name, `neural:MODEL`; it is in no list of all methods, since it needs a file.
+pub const ENTRY: Entry = Entry { head: "neural", pattern: "neural:MODEL", names: |_| Vec::new(), build };
+
+fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
+    arguments.no_own()?;
+    let path = arguments.argument.ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
+    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model { name: arguments.name.to_owned(), source })?;
+    Ok(Box::new(Neural::new(mlp)))
 }
 
 impl Neural {
@@ -20,16 +32,16 @@ impl Neural {
         MethodError::Depth { method: self.name(), source }
     }
 
-    /// Transmittance of every fragment of a list, in its order; features in f64 rounded to f32, forward pass in f32.
+    /// The network's answer (transmittance, or the like) for every fragment of a list, in its order; features in f64 rounded to f32, forward pass in f32.
     ///
     /// `progress` is told how many fragments are done.
     ///
     /// # Errors
-    /// [`MethodError::Depth`] where camera planes are needed and unknown, or a fragment lies outside them.
+    /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth range is none.
     pub fn transmittance(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Vec<f32>, MethodError> {
         // Pixels are taken in runs of about this many fragments, so that their features stay a few megabytes.
         const RUN: u64 = 1 << 18;
-        let extractor = Extractor::new(self.mlp.feature_set(), context.planes_for(list)).map_err(|e| self.error(e))?;
+        let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range).map_err(|e| self.error(e))?;
         let offsets = list.offsets();
         let mut out = Vec::with_capacity(list.len());
         let mut first = 0;
@@ -53,6 +65,7 @@ impl Method for Neural {
     fn bits_per_pixel(&self) -> u32 {
         match self.mlp.feature_set() {
             FeatureSet::Paper => 352,
+            FeatureSet::DeepWeightedBlended => deep_weighted_blended::BITS_PER_PIXEL,
         }
     }
 
@@ -91,7 +104,7 @@ mod tests {
         let context = Context { planes: Some(planes), ..Context::default() };
         let all = oit::weights(&list, &*method.accumulate(&list, context).unwrap());
         let mut rows = vec![0.0; 14];
-        Extractor::new(FeatureSet::Paper, Some(planes)).unwrap().pixel(list.pixel(1), &mut rows).unwrap();
+        Extractor::new(FeatureSet::Paper, Some(planes), None).unwrap().pixel(list.pixel(1), &mut rows).unwrap();
         assert_eq!(all[0], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[..7])));
         assert_eq!(all[1], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[7..])));
         assert_eq!(all.len(), 3);

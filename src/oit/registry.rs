@@ -1,6 +1,10 @@
 //! Methods by their names on the command line.
 
-use super::{Method, fourier_opacity, low_resolution_moments, moment_power, moment_transparency, moment_trig, two_moment_passes};
+use super::{
+    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, low_resolution_moments, moment_power,
+    moment_transparency, moment_trig, multi_layer_alpha, neural, two_moment_passes, weighted_average, weighted_blended, weighted_sum,
+};
+use crate::model::ModelError;
 
 /// What a name says after its head.
 #[derive(Debug, Clone, Copy)]
@@ -15,8 +19,32 @@ pub struct Arguments<'a> {
 
 impl Arguments<'_> {
     /// The error that says what the argument should be.
-    pub fn wrong(&self, expected: &'static str) -> ParseError {
-        ParseError::Argument { name: self.name.to_owned(), found: self.argument.map_or("nothing".to_owned(), |a| format!("'{a}'")), expected }
+    pub fn wrong(&self, expected: impl Into<String>) -> ParseError {
+        ParseError::Argument {
+            name: self.name.to_owned(),
+            found: self.argument.map_or("nothing".to_owned(), |a| format!("'{a}'")),
+            expected: expected.into(),
+        }
+    }
+
+    /// Checks that `+own` does not end the name.
+    ///
+    /// # Errors
+    /// [`ParseError::Own`].
+    pub fn no_own(&self) -> Result<(), ParseError> {
+        if self.own { Err(ParseError::Own { name: self.name.to_owned() }) } else { Ok(()) }
+    }
+
+    /// The number K that a method which is not of moments takes.
+    ///
+    /// # Errors
+    /// [`ParseError`].
+    pub fn layers(&self) -> Result<usize, ParseError> {
+        self.no_own()?;
+        match self.argument.map(str::parse) {
+            Some(Ok(k @ 1..=MOST_LAYERS)) => Ok(k),
+            _ => Err(self.wrong(format!("expected a whole number from 1 to {MOST_LAYERS}"))),
+        }
     }
 
     /// Checks that nothing stands after the head but `+own`.
@@ -27,6 +55,9 @@ impl Arguments<'_> {
         if self.argument.is_none() { Ok(()) } else { Err(self.wrong("expected no argument")) }
     }
 }
+
+/// Most layers, nodes or passes that a method may be asked for.
+pub const MOST_LAYERS: usize = 1 << 16;
 
 /// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how to make one.
 #[derive(Debug, Clone, Copy)]
@@ -43,16 +74,26 @@ pub struct Entry {
 
 /// Every kind of method: one line a file.
 const ENTRIES: &[&[Entry]] = &[
+    &[abuffer::ENTRY],
+    &[weighted_sum::ENTRY],
+    &[weighted_average::ENTRY],
+    &[weighted_blended::ENTRY],
+    &[deep_weighted_blended::ENTRY],
     &moment_power::ENTRIES,
     &moment_trig::ENTRIES,
     &[moment_transparency::ENTRY],
     &[two_moment_passes::ENTRY],
     &[low_resolution_moments::ENTRY],
     &[fourier_opacity::ENTRY],
+    &[depth_peeling::ENTRY],
+    &[dual_depth_peeling::ENTRY],
+    &[multi_layer_alpha::ENTRY],
+    &[adaptive::ENTRY],
+    &[neural::ENTRY],
 ];
 
 /// Why a name is not a method's.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum ParseError {
     /// No method has this name.
     #[error("there is no method '{name}'; known are {known}")]
@@ -70,8 +111,25 @@ pub enum ParseError {
         /// What stands there.
         found: String,
         /// What should stand there.
-        expected: &'static str,
+        expected: String,
     },
+    /// The method has no moments to take the own fragment out of.
+    #[error("{name}: '+own' goes with moment-based methods only")]
+    Own {
+        /// The whole name.
+        name: String,
+    },
+    /// Its network cannot be used.
+    #[error("{name}: {source}")]
+    Model {
+        /// The whole name.
+        name: String,
+        /// Why.
+        source: ModelError,
+    },
+    /// Its network has other features.
+    #[error(transparent)]
+    Features(#[from] deep_weighted_blended::WrongFeatures),
 }
 
 fn entries() -> impl Iterator<Item = &'static Entry> {

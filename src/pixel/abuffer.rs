@@ -17,7 +17,8 @@ use std::convert::Infallible;
 /// If `out` is not as long as the pixel has fragments.
 pub fn transmittance(pixel: Pixel<'_>, out: &mut [f64]) {
     assert_eq!(out.len(), pixel.len());
-    let order = front_to_back(pixel);
+    let mut order = Vec::new();
+    front_to_back(pixel, &mut order);
     let mut in_front = 0.0;
     let mut at_this_depth = 0.0;
     let mut depth = f32::NEG_INFINITY;
@@ -35,9 +36,43 @@ pub fn transmittance(pixel: Pixel<'_>, out: &mut [f64]) {
 
 /// [`transmittance`] of every fragment of a list, in its order, on all cores.
 pub fn list_transmittance(list: &FragmentList) -> Vec<f64> {
+    of_list(list, transmittance)
+}
+
+/// Factor by which blending from front to back has come down when it reaches a fragment, in the order of the input: Π e^−A over the fragments
+/// before it in the order (view_z, input index).
+///
+/// It is the weight that [`composite`] gives to a fragment, and [`transmittance`] but for ties, which it breaks.
+///
+/// # Source
+/// DWB22 Eq. 3.2–3.3 (Adst as a fragment meets it), with the absorbance clamped as [`absorbance()`] does.
+///
+/// # Shapes
+/// `out: [n]`, n = number of fragments of the pixel.
+///
+/// # Panics
+/// If `out` is not as long as the pixel has fragments.
+pub fn front_to_back_factor(pixel: Pixel<'_>, out: &mut [f64]) {
+    assert_eq!(out.len(), pixel.len());
+    let mut order = Vec::new();
+    front_to_back(pixel, &mut order);
+    let mut in_front = 0.0;
+    for &i in &order {
+        let i = i as usize;
+        out[i] = libm::exp(-in_front);
+        in_front += absorbance(pixel.alpha[i]);
+    }
+}
+
+/// [`front_to_back_factor`] of every fragment of a list, in its order, on all cores.
+pub fn list_front_to_back_factor(list: &FragmentList) -> Vec<f64> {
+    of_list(list, front_to_back_factor)
+}
+
+fn of_list(list: &FragmentList, f: fn(Pixel<'_>, &mut [f64])) -> Vec<f64> {
     let mut out = vec![0.0; list.len()];
     let Ok(()) = list.par_pixels(0..list.pixels(), &mut out, 1, |_, pixel, out| -> Result<(), Infallible> {
-        transmittance(pixel, out);
+        f(pixel, out);
         Ok(())
     });
     out
@@ -66,7 +101,9 @@ pub fn composite(pixel: Pixel<'_>, background: [f64; 3]) -> [f64; 3] {
     };
     let mut sum = [0.0; 3];
     let mut in_front = 0.0;
-    for &i in &front_to_back(pixel) {
+    let mut order = Vec::new();
+    front_to_back(pixel, &mut order);
+    for &i in &order {
         let i = i as usize;
         let weight = f64::from(pixel.alpha[i]) * libm::exp(-in_front);
         for (s, &c) in sum.iter_mut().zip(&color[i]) {
@@ -78,11 +115,11 @@ pub fn composite(pixel: Pixel<'_>, background: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|c| sum[c] + behind * background[c])
 }
 
-/// Input indices in the order (view_z, input index).
-fn front_to_back(pixel: Pixel<'_>) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..pixel.len() as u32).collect();
-    order.sort_by(|&a, &b| pixel.view_z[a as usize].total_cmp(&pixel.view_z[b as usize]));
-    order
+/// Input indices in the order (view_z, input index); what `order` held is dropped.
+pub fn front_to_back(pixel: Pixel<'_>, order: &mut Vec<u32>) {
+    order.clear();
+    order.extend(0..pixel.len() as u32);
+    order.sort_unstable_by(|&a, &b| pixel.view_z[a as usize].total_cmp(&pixel.view_z[b as usize]).then(a.cmp(&b)));
 }
 
 #[cfg(test)]
@@ -115,6 +152,19 @@ mod tests {
         let t = truth(&[2.0, 1.0, 2.0, 3.0], &[0.5, 0.5, 0.5, 0.5]);
         let expected = [0.5, 1.0, 0.5, 0.125];
         assert!(t.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-15), "{t:?}");
+    }
+
+    /// The front-to-back factor breaks ties as the composite does, and is T where there are none.
+    #[test]
+    fn front_to_back_factors_break_ties() {
+        let pixel = Pixel { view_z: &[2.0, 1.0, 2.0, 3.0], alpha: &[0.5; 4], color: None };
+        let mut factor = [f64::NAN; 4];
+        front_to_back_factor(pixel, &mut factor);
+        let expected = [0.5, 1.0, 0.25, 0.125];
+        assert!(factor.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-15), "{factor:?}");
+        let list = FragmentList::new(vec![0, 0, 4], pixel.view_z.to_vec(), pixel.alpha.to_vec(), None).unwrap();
+        assert_eq!(list_front_to_back_factor(&list), factor);
+        assert_ne!(list_transmittance(&list), factor);
     }
 
     #[test]

@@ -18,6 +18,9 @@ pub enum DepthError {
     /// Window depth was asked for and no camera planes are known.
     #[error("window depth needs the camera planes, which the fragment list does not carry; pass --near and --far")]
     NoPlanes,
+    /// Relative depth was asked for and no range is known.
+    #[error("relative depth needs a range of view depths, and neither the fragment list nor the caller gives one; pass --depth-range")]
+    NoRange,
     /// The planes are not 0 < near < far, or not finite.
     #[error("camera planes near = {near}, far = {far}: expected 0 < near < far, both finite")]
     BadPlanes {
