@@ -759,7 +759,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #![proptest_config(ProptestConfig::with_cases(300))]
         /// Whatever bytes change, there is a valid list or an error, and no panic.
         #[test]
         fn flipped_bytes_never_panic(flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4), long in any::<bool>()) {
@@ -792,7 +792,6 @@ mod tests {
         let first = u64::from_le_bytes(good[data_at..data_at + 8].try_into().unwrap()) as usize;
         let cases = [
             (changed(0, b"X"), "no OpenEXR file"),
-            (changed(4, &[2, 0]), "flat"),
             (changed(find(b"A\0\x02"), b"Q"), "no channel A (alpha)"),
             (changed(find(b"Z\0\x02"), b"Q"), "no channel Z (depth)"),
             (changed(find(b"R\0\x02"), b"Q"), "needs R, G and B"),

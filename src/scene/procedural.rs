@@ -12,12 +12,12 @@ use std::f64::consts::{PI, TAU};
 /// The camera of a built-in scene.
 pub(super) fn camera(name: &str) -> Camera {
     let (position, look_at, vertical_fov) = match name {
-        "glass-stacks" => ([3.4, 2.7, 6.2], [0.0, 0.42, 0.0], 32.0),
+        "glass-stacks" => ([3.4, 2.7, 6.2], [0.0, 0.42, 0.0], 40.0),
         "smoke" => ([0.0, 2.2, 8.5], [0.0, 2.15, 0.0], 36.0),
-        "hair" => ([0.9, 0.5, 6.2], [0.0, -0.25, 0.0], 34.0),
+        "hair" => ([0.9, 0.5, 6.2], [0.0, -0.25, 0.0], 40.0),
         "foliage" => ([0.4, 1.9, 8.2], [0.0, 2.0, 0.0], 34.0),
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
-        _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 35.0),
+        _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
     };
     Camera { position, look_at, up: [0.0, 1.0, 0.0], vertical_fov, width: 512, height: 512, near: 0.5, far: 40.0 }
 }
@@ -211,7 +211,7 @@ fn smoke(out: &mut Builder, seed: u64) {
 fn hair(out: &mut Builder, seed: u64) {
     const STRANDS: u64 = 15000;
     const SEGMENTS: usize = 20;
-    const WIDTH: f64 = 0.0036;
+    const WIDTH: f64 = 0.009;
     for i in 0..STRANDS {
         // Strands of a lock share a lock's shape and differ a little.
         let mut lock = random(seed, Purpose::Hair, i / 60);
