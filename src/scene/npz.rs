@@ -198,7 +198,7 @@ mod tests {
         ]);
         assert_eq!(read(&path).unwrap().size(), Some((1, 1)));
         let ok = ("offsets", encode(ArrayView1::from(&[0u32, 1])));
-        let cases: [(Vec<(&str, Vec<u8>)>, &str); 6] = [
+        let cases: [(Vec<_>, &str); 6] = [
             (vec![("offsets", encode(ArrayView1::from(&[0i64, -1]))), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))], "offsets[1] = -1"),
             (vec![("offsets", f(&[0.0, 1.0])), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))], "expected a whole NumPy array of uint32 or uint64"),
             (vec![ok.clone(), ("view_z", f(&[1.0]))], "there is no array 'alpha'"),
