@@ -1,3 +1,230 @@
-//! Fragment lists from files.
+//! Fragment lists from scenes: meshes and built-in scenes seen through a camera, and files of other renderers.
 
+pub mod camera;
+pub mod exr;
+pub mod file;
+mod mesh;
 pub mod npz;
+mod procedural;
+mod raster;
+
+pub use camera::Camera;
+pub use file::{Look, MeshEntry, SceneFile};
+
+use crate::numeric::file::FileError;
+use crate::numeric::npy::NpyError;
+use crate::pixel::{FragmentError, FragmentList};
+use std::path::{Path, PathBuf};
+
+/// The scenes that need no files.
+pub const BUILT_IN: [&str; 6] = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
+
+/// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
+pub const MOST_FRAGMENTS: u64 = 1 << 28;
+
+/// What a caller may change about a scene.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Columns and rows in place of the camera's [pixels].
+    pub size: Option<(u32, u32)>,
+    /// Seed of a built-in scene in place of the scene file's.
+    pub seed: Option<u64>,
+}
+
+/// Why there is no fragment list.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file or one of its arrays is unreadable.
+    #[error(transparent)]
+    Array(#[from] NpyError),
+    /// The file is unreadable or cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The arrays do not make a valid list.
+    #[error("{}: {source}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        source: FragmentError,
+    },
+    /// A mesh or image file is damaged or uses what is not supported.
+    #[error("{}: {place}: {reason}", path.display())]
+    FileContent {
+        /// The file.
+        path: PathBuf,
+        /// The place in it.
+        place: String,
+        /// What is wrong, and what to do.
+        reason: String,
+    },
+    /// A scene file is no TOML, or has fields that are not known.
+    #[error("{}: {message}", path.display())]
+    Toml {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with its line.
+        message: String,
+    },
+    /// A field of a scene file makes no picture.
+    #[error("{}: {field}: {found}; expected {expected}", path.display())]
+    Field {
+        /// The scene file, or the name of the built-in scene.
+        path: PathBuf,
+        /// The field.
+        field: String,
+        /// What it holds.
+        found: String,
+        /// What it should hold.
+        expected: String,
+    },
+    /// There is no built-in scene of this name.
+    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml", BUILT_IN.join(", "))]
+    UnknownBuiltIn {
+        /// The name.
+        name: String,
+    },
+    /// The picture would take too much memory.
+    #[error(
+        "the scene has {fragments} fragments in {pixels} pixels; at most {MOST_FRAGMENTS} are supported, so lower the width and height or use fewer layers"
+    )]
+    TooManyFragments {
+        /// Number of fragments.
+        fragments: u64,
+        /// Number of pixels.
+        pixels: u64,
+    },
+    /// The file's name tells no format.
+    #[error("{}: a fragment list ends in .npz or .exr", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl SceneError {
+    fn field(path: &Path, field: &str, found: String, expected: &str) -> Self {
+        Self::Field { path: path.to_owned(), field: field.to_owned(), found, expected: expected.to_owned() }
+    }
+
+    fn file_content(path: &Path, place: &str, reason: impl Into<String>) -> Self {
+        Self::FileContent { path: path.to_owned(), place: place.to_owned(), reason: reason.into() }
+    }
+}
+
+/// A scene by its name: a built-in one, or else a scene file's path.
+///
+/// # Errors
+/// [`SceneError`] names what is wrong, and where; for a name that is neither, the built-in scenes.
+pub fn open(name: &str) -> Result<SceneFile, SceneError> {
+    if BUILT_IN.contains(&name) {
+        return SceneFile::built_in(name);
+    }
+    let path = Path::new(name);
+    if path.extension().is_none() && !path.exists() {
+        return Err(SceneError::UnknownBuiltIn { name: name.to_owned() });
+    }
+    SceneFile::read(path)
+}
+
+/// The fragments of a scene, with colours, image size and camera planes.
+///
+/// The result depends on the scene and the options alone, not on the number of threads.
+/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its pixel is left out.
+///
+/// # Errors
+/// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
+pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
+    scene.build(options)
+}
+
+/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image.
+///
+/// # Errors
+/// [`SceneError`] names the file, the place in it and what is expected there.
+pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
+    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("npz") => npz::read(path),
+        Some("exr") => exr::read(path, &exr::ReadOptions::default()),
+        _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn small(name: &str, size: u32, seed: u64) -> FragmentList {
+        build(&open(name).unwrap(), &Options { size: Some((size, size)), seed: Some(seed) }).unwrap()
+    }
+
+    #[test]
+    fn built_in_scenes_have_the_depth_they_promise() {
+        for (name, least) in [("glass-stacks", 20), ("smoke", 101), ("hair", 151), ("foliage", 10), ("spheres", 6), ("teapots", 6)] {
+            let list = small(name, 128, 1);
+            assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
+            let covered = (0..list.pixels()).filter(|&p| !list.range(p).is_empty()).count();
+            assert!(covered * 10 > list.pixels(), "{name} covers {covered} of {} pixels", list.pixels());
+        }
+    }
+
+    #[test]
+    fn threads_change_nothing_and_seeds_do() {
+        for name in BUILT_IN {
+            let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| small(name, 48, 3));
+            let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| small(name, 48, 3));
+            assert_eq!(one, three, "{name}");
+        }
+        assert_ne!(small("smoke", 48, 3), small("smoke", 48, 4));
+    }
+
+    #[test]
+    fn example_scenes_build() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/scenes");
+        for name in ["house.toml", "smoke.toml"] {
+            let list = build(&SceneFile::read(&folder.join(name)).unwrap(), &Options { size: Some((64, 64)), seed: None }).unwrap();
+            assert!(list.depth_complexity() >= 2, "{name}");
+        }
+    }
+
+    #[test]
+    fn bad_scene_files_name_the_field() {
+        let camera = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\nwidth = 8\nheight = 8\nnear = 0.1\nfar = 50\n";
+        let error = |text: String| SceneFile::parse(Path::new("a.toml"), &text).map(|_| ()).unwrap_err().to_string();
+        let cases = [
+            (error(String::new()), "built_in, mesh: neither"),
+            (error("built_in = \"moon\"".to_owned()), "one of glass-stacks"),
+            (error("surprise = 1".to_owned()), "surprise"),
+            (error(format!("built_in = \"smoke\"\n{}", camera.replace("width = 8", "width = 4000000"))), "camera.width: 4000000"),
+            (error(format!("built_in = \"smoke\"\n{}", camera.replace("near = 0.1", "near = nan"))), "camera.near, far"),
+            (error(format!("built_in = \"smoke\"\n{}", camera.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 5]"))), "camera.look_at"),
+            (error(format!("{camera}[[mesh]]\nfile = \"a.obj\"\nalpha = 1.5")), "mesh[0].alpha: 1.5"),
+            (error("[[mesh]]\nfile = \"a.obj\"".to_owned()), "camera: it is missing"),
+        ];
+        for (message, part) in cases {
+            assert!(message.contains(part) && message.contains("a.toml"), "{message} / {part}");
+        }
+    }
+
+    #[test]
+    fn bad_meshes_name_the_file_and_the_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let gltf =
+            |nodes: &str, buffers: &str| format!(r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{nodes}{buffers}}}"#);
+        let cases = [
+            ("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_owned(), "vertex 2 (line 2)"),
+            ("b.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "out of bounds"),
+            ("c.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
+            ("d.gltf", gltf(r#"[{"children":[1]},{"children":[0]}]"#, ""), "cycle"),
+            ("e.gltf", gltf("[{}]", r#","buffers":[{"byteLength":12,"uri":"gone.bin"}]"#), "gone.bin"),
+            ("f.glb", "glTF\u{2}\0\0\0".to_owned(), "ends early"),
+            ("g.stl", String::new(), ".obj, .gltf or .glb"),
+        ];
+        for (name, content, part) in cases {
+            let path = folder.path().join(name);
+            std::fs::write(&path, content).unwrap();
+            let message = mesh::load(&path, true).unwrap_err().to_string();
+            assert!(message.contains(part) && message.contains(name), "{message} / {part}");
+        }
+    }
+}

@@ -2,27 +2,12 @@
 //!
 //! `offsets` u32 or u64 `[P + 1]`, `view_z` f32 `[F]`, `alpha` f32 `[F]`; optional `color` f32 `[F, 3]`, `width`, `height`, `near`, `far`.
 
+use super::SceneError;
 use crate::numeric::file::{FileError, Replace};
 use crate::numeric::npy::{Element, NpyError, Npz, encode, write_npz};
 use crate::pixel::{CameraPlanes, FragmentError, FragmentList};
 use ndarray::{ArrayView1, ArrayView2, arr0};
-use std::path::{Path, PathBuf};
-
-/// Why a fragment list could not be read.
-#[derive(Debug, thiserror::Error)]
-pub enum SceneError {
-    /// The file or one of its arrays is unreadable.
-    #[error(transparent)]
-    Array(#[from] NpyError),
-    /// The arrays do not make a valid list.
-    #[error("{}: {source}", path.display())]
-    Content {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong, and where.
-        source: FragmentError,
-    },
-}
+use std::path::Path;
 
 /// Reads a fragment list.
 ///
