@@ -1,6 +1,7 @@
 //! `nmt generate`
 
 use super::config::Config;
+use super::scene::{SceneOptions, load};
 use super::ui::Ui;
 use super::{Verdict, ui};
 use crate::dataset::{self, Dataset, file};
@@ -22,6 +23,11 @@ pub struct Generate {
     /// Write the raw pixels too, as a fragment list: training pixels, then validation pixels.
     #[arg(long, value_name = "F.npz")]
     fragments: Option<PathBuf>,
+    /// Take the pixels of these scenes (as `nmt evaluate` names them) instead of random ones.
+    #[arg(long, value_name = "F.npz|SCENE", num_args = 1.., conflicts_with = "fragments")]
+    from: Vec<String>,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
@@ -36,11 +42,15 @@ impl Generate {
             may_write(path, replace)?;
         }
         let start = Instant::now();
-        let (dataset, pixels) = build(&config, ui)?;
+        let (dataset, pixels) = if self.from.is_empty() {
+            let (dataset, pixels) = build(&config, ui)?;
+            (dataset, Some(pixels))
+        } else {
+            (self.build_from_scenes(&config)?, None)
+        };
         let seconds = start.elapsed().as_secs_f64();
         file::write(&self.out, replace, &dataset)?;
-        if let Some(path) = &self.fragments {
-            let [training, validation] = pixels;
+        if let (Some(path), Some([training, validation])) = (&self.fragments, pixels) {
             npz::write(path, replace, &training.followed_by(&validation))?;
         }
         let pairs = dataset.training.len() + dataset.validation.len();
@@ -63,6 +73,12 @@ impl Generate {
             ui.print(&format!("hash {}\n{}\n", dataset.manifest.hash, self.out.display()))?;
         }
         Ok(Verdict::Fine)
+    }
+
+    fn build_from_scenes(&self, config: &Config) -> anyhow::Result<Dataset> {
+        let lists = self.from.iter().map(|name| load(name, &self.options)).collect::<anyhow::Result<Vec<_>>>()?;
+        let named: Vec<(&str, &FragmentList)> = self.from.iter().map(String::as_str).zip(&lists).collect();
+        Ok(dataset::build_from_lists(&config.name, config.seed, &named, &config.dataset)?)
     }
 }
 

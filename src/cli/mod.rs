@@ -2,12 +2,14 @@
 
 mod check;
 mod config;
+mod evaluate;
 mod export;
 mod generate;
 mod import;
 mod interrupt;
 mod predict;
 mod run;
+mod scene;
 mod train;
 mod ui;
 
@@ -50,6 +52,10 @@ enum Command {
     Check(check::Check),
     /// Answer the fragments of a file: transmittance of each.
     Predict(predict::Predict),
+    /// Compare transparency methods on scenes: errors, images, contact sheets.
+    Evaluate(evaluate::Evaluate),
+    /// Render a scene, or convert a deep image, to a fragment list.
+    Scene(scene::Scene),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -75,6 +81,8 @@ pub fn main() -> ExitCode {
         Command::Export(c) => c.execute(&ui),
         Command::Check(c) => c.execute(&ui),
         Command::Predict(c) => c.execute(&ui),
+        Command::Evaluate(c) => c.execute(&ui),
+        Command::Scene(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

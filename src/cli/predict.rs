@@ -3,12 +3,14 @@
 use super::Verdict;
 use super::ui::Ui;
 use crate::evaluate::transmittance_error;
+use crate::features::OutputMeaning;
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
 use crate::oit::{Context, neural::Neural};
 use crate::pixel::{CameraPlanes, abuffer};
-use crate::scene::npz;
+use crate::scene;
+use anyhow::bail;
 use clap::Args;
 use ndarray::ArrayView1;
 use serde_json::json;
@@ -19,7 +21,7 @@ use std::time::Instant;
 pub struct Predict {
     /// Model file.
     model: PathBuf,
-    /// Fragment list to answer.
+    /// Fragment list to answer; a deep image (.exr) is taken too.
     #[arg(long, value_name = "F.npz")]
     fragments: PathBuf,
     /// Transmittance of every fragment, f32 [F], in the order of the list.
@@ -42,7 +44,10 @@ impl Predict {
         may_write(&self.out, replace)?;
         let mlp = file::load(&self.model)?;
         let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        let list = npz::read(&self.fragments)?;
+        if mlp.feature_set().output() != OutputMeaning::Transmittance {
+            bail!("{}: its answer is not a transmittance; 'nmt evaluate --model' shows what it is good for", self.model.display());
+        }
+        let list = scene::read(&self.fragments)?;
         let shape = mlp.shape();
         let method = Neural::new(mlp);
         let progress = ui.progress("predict", list.len() as u64);

@@ -91,6 +91,7 @@ impl Train {
         let replace = if self.options.force { Replace::Yes } else { Replace::No };
         let config = self.options.configure(&self.config)?;
         may_write(&self.out, replace)?;
+        may_write(&losses_path(&self.out), replace)?;
         let checkpoint = path_for(&self.out);
         self.options.settle_checkpoint(&checkpoint)?;
         let dataset = match &self.dataset {
@@ -122,6 +123,11 @@ impl Train {
     }
 }
 
+/// Where the losses of every epoch go: beside the model.
+fn losses_path(model: &Path) -> PathBuf {
+    model.with_extension("losses.csv")
+}
+
 /// A finished training.
 pub struct Trained {
     pub mlp: Mlp,
@@ -138,7 +144,7 @@ impl Trained {
         for (index, losses) in self.history.iter().enumerate() {
             csv += &format!("{},{:e},{:e}\n", index + 1, losses.training, losses.validation);
         }
-        write_atomically(&model.with_extension("losses.csv"), Replace::Yes, |w| w.write_all(csv.as_bytes()))?;
+        write_atomically(&losses_path(model), replace, |w| w.write_all(csv.as_bytes()))?;
         match std::fs::remove_file(checkpoint) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(FileError::io(checkpoint, "cannot remove the checkpoint")(error)),
             _ => Ok(()),

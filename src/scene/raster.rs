@@ -457,7 +457,8 @@ mod tests {
         }
     }
 
-    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here 2e-4 of the depth.
+    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here below 1e-3 of the depth. Control:
+    /// depth interpolated linearly on the screen, between the depths at the left and right edge, is further off in the middle.
     #[test]
     fn depth_is_perspective_correct() {
         let view = view(64, 64);
@@ -465,16 +466,20 @@ mod tests {
         let at = |x: f32, y: f32| [x, y, -5.0 - x];
         let list = draw(vec![triangle([at(-4.0, -30.0), at(40.0, -30.0), at(-4.0, 60.0)], GLASS)], &view);
         let mut seen = 0;
+        let mut linear_is_off = 0;
+        let depth_at = |column: f64| 5.0 / (1.0 - (column - 32.0) / view.focal);
         for p in 0..list.pixels() {
-            let t = ((p % 64) as f64 + 0.5 - 32.0) / view.focal;
+            let column = (p % 64) as f64 + 0.5;
+            let t = (column - 32.0) / view.focal;
             for &z in list.pixel(p).view_z {
                 let expected = 5.0 / (1.0 - t);
                 assert!((f64::from(z) - expected).abs() <= 1e-3 * expected, "{z} against {expected}");
-                // Control: depth interpolated linearly on the screen would be far off in the middle.
+                let linear = depth_at(0.5) + (depth_at(63.5) - depth_at(0.5)) * (column - 0.5) / 63.0;
+                linear_is_off += usize::from((linear - expected).abs() > 1e-3 * expected);
                 seen += 1;
             }
         }
-        assert!(seen > 500, "{seen}");
+        assert!(seen > 500 && linear_is_off > seen / 2, "{seen}, {linear_is_off}");
     }
 
     #[test]

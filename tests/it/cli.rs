@@ -270,6 +270,86 @@ fn import_takes_foreign_weights() {
     assert!(!Path::new(&at.path("j.json")).exists());
 }
 
+/// A scene to a fragment list, to a deep image and back: the same fragments.
+#[test]
+fn scenes_become_fragment_lists() {
+    let at = Workplace::new();
+    let report = json(nmt(&["scene", "spheres", "--size", "48x32", "--out", &at.path("s.npz"), "--json"]));
+    let result = &report["results"][0];
+    assert_eq!((result["width"].as_u64(), result["height"].as_u64(), result["pixels"].as_u64()), (Some(48), Some(32), Some(48 * 32)));
+    assert!(result["fragments"].as_u64().unwrap() > 1000);
+    nmt(&["scene", "spheres", "--size", "48x32", "--out", &at.path("s.npz")]).code(2).stderr(contains("--force"));
+    nmt(&["scene", &at.path("s.npz"), "--out", &at.path("s.exr")]).success();
+    let back = json(nmt(&["scene", &at.path("s.exr"), "--out", &at.path("b.npz"), "--json"]));
+    assert_eq!(back["results"][0]["fragments"], result["fragments"]);
+    for scene in ["configs/scenes/house.toml", "configs/scenes/smoke.toml"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(scene);
+        nmt(&["scene", path.to_str().unwrap(), "--size", "32x32", "--out", &at.path("t.npz"), "--force"]).success();
+    }
+    nmt(&["scene", "castle", "--out", &at.path("c.npz")]).code(2).stderr(contains("glass-stacks"));
+    nmt(&["scene", "smoke", "--size", "0x9", "--out", &at.path("c.npz")]).code(2);
+    nmt(&["scene", "smoke", "--size", "99999x99999", "--out", &at.path("c.npz")]).code(2);
+    nmt(&["scene", "smoke", "--out", &at.path("c.png")]).code(2).stderr(contains("c.png"));
+    nmt(&["scene", &at.path("s.npz"), "--size", "8x8", "--out", &at.path("c.npz")]).code(2).stderr(contains("--size"));
+    nmt(&["scene", &at.write("bad.exr", "not an image"), "--out", &at.path("c.npz")]).code(2).stderr(contains("bad.exr"));
+    nmt(&["scene", &at.write("bad.toml", "built_in = 'smoke'\nsurprise = 1"), "--out", &at.path("c.npz")]).code(2).stderr(contains("surprise"));
+    assert!(!Path::new(&at.path("c.npz")).exists());
+}
+
+/// Methods beside a network on a rendered scene: a table, pictures, a contact sheet, numbers; and the exact method is exact.
+#[test]
+fn evaluate_compares_methods() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["scene", "glass-stacks", "--size", "40x30", "--out", &at.path("g.npz")]).success();
+    let methods = "abuffer,moment-power-4,moment-power-8+own,weighted-average";
+    let evaluate = |out: &str, more: &[&str]| {
+        nmt(&[&["evaluate", "--fragments", &at.path("g.npz"), "--methods", methods, "--out", &at.path(out)], more].concat())
+    };
+    evaluate("e", &["--model", &model]).success().stdout(contains("moment-power-4").and(contains("neural:tiny")).and(contains("unbounded")));
+    for file in ["results.json", "g/truth.png", "g/sheet.png", "g/moment-power-4.png", "g/moment-power-4.flip.png", "g/neural-tiny.png"] {
+        assert!(Path::new(&at.path("e")).join(file).is_file(), "{file}");
+    }
+    evaluate("e", &[]).code(2).stderr(contains("--force"));
+    let report = json(evaluate("e", &["--force", "--json"]));
+    let of = |method: &str| report["results"].as_array().unwrap().iter().find(|r| r["method"] == method).unwrap().clone();
+    assert!(of("abuffer")["image_mse"].as_f64().unwrap() < 1e-20 && of("abuffer")["transmittance_mse"].as_f64().unwrap() < 1e-20);
+    let (four, average) = (of("moment-power-4"), of("weighted-average"));
+    assert!(four["image_mse"].as_f64().unwrap() < average["image_mse"].as_f64().unwrap());
+    assert!(average["transmittance_mse"].is_null() && four["scene"] == "g");
+
+    evaluate("x", &["--background", "2", "0", "0"]).code(2).stderr(contains("background"));
+    nmt(&["evaluate", "--fragments", &at.path("g.npz"), "--methods", "moment-power-5", "--out", &at.path("x")])
+        .code(2)
+        .stderr(contains("moment-power-4"));
+    assert!(!Path::new(&at.path("x")).exists());
+}
+
+/// Without colours and size there are errors of T, and a word about the missing pictures.
+#[test]
+fn evaluate_does_without_pictures() {
+    let at = Workplace::new();
+    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--fragments", &at.path("f.npz")]).success();
+    nmt(&["evaluate", "--fragments", &at.path("f.npz"), "--methods", "moment-power-6", "--out", &at.path("e")])
+        .success()
+        .stdout(contains("no pictures").and(contains("moment-power-6")));
+    nmt(&["evaluate", "--fragments", &at.path("f.npz"), "--methods", "low-resolution-moments:2", "--out", &at.path("e"), "--force"])
+        .code(2)
+        .stdout(contains("not applied"));
+}
+
+/// A dataset of scenes, and a network trained on it.
+#[test]
+fn datasets_come_from_scenes_too() {
+    let at = Workplace::new();
+    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--from", "spheres", "teapots", "--size", "64x48"]).success();
+    nmt(&["train", &at.config(), "--dataset", &at.path("d"), "--out", &at.path("m.json")]).success();
+    let manifest = std::fs::read_to_string(at.path("d/manifest.json")).unwrap();
+    assert!(manifest.contains("teapots"));
+    let huge = at.write("huge.toml", &TINY.replacen("training_pairs = 2000", "training_pairs = 200000000", 1));
+    nmt(&["generate", &huge, "--out", &at.path("h"), "--from", "spheres", "--size", "8x8"]).code(2);
+}
+
 /// Every error of a configuration names the file and the field; nothing is written.
 #[test]
 fn bad_configurations() {

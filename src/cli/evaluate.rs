@@ -1,0 +1,206 @@
+//! `nmt evaluate`
+
+use super::Verdict;
+use super::scene::{SceneOptions, load};
+use super::ui::{Ui, report, table};
+use crate::evaluate::picture::{Sheet, file_stem, write_image, write_method};
+use crate::evaluate::{MethodResult, Truth, sort_by_error};
+use crate::model::file;
+use crate::numeric::file::{Replace, may_write, write_atomically};
+use crate::oit::{Context, Method, all_names, neural::Neural, parse};
+use crate::pixel::CameraPlanes;
+use anyhow::bail;
+use clap::Args;
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct Evaluate {
+    /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
+    #[arg(long, value_name = "F.npz|SCENE", required = true, num_args = 1..)]
+    fragments: Vec<String>,
+    /// Methods, by name; "all" stands for every classic one.
+    #[arg(long, value_delimiter = ',', default_value = "all")]
+    methods: Vec<String>,
+    /// Networks to evaluate beside them.
+    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    model: Vec<PathBuf>,
+    /// Folder for images, contact sheets and results.json.
+    #[arg(long)]
+    out: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Near plane of the camera, instead of the lists' own [scene units].
+    #[arg(long, requires = "far")]
+    near: Option<f32>,
+    /// Far plane of the camera, instead of the lists' own [scene units].
+    #[arg(long, requires = "near")]
+    far: Option<f32>,
+    /// View depths that moment depth -1 and 1 stand for, instead of each list's extremes [scene units].
+    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
+    depth_range: Option<Vec<f32>>,
+    /// Linear colour behind everything.
+    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
+    background: Vec<f64>,
+    /// Replace what is there.
+    #[arg(long)]
+    force: bool,
+}
+
+/// The file that holds all numbers.
+const RESULTS: &str = "results.json";
+
+impl Evaluate {
+    pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        may_write(&self.out.join(RESULTS), replace)?;
+        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
+        let context = Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) };
+        let background = [self.background[0], self.background[1], self.background[2]];
+        if let Some(wrong) = background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
+            bail!("--background {wrong}: every channel must lie in [0, 1]");
+        }
+        let methods = self.methods()?;
+
+        let names = scene_names(&self.fragments);
+        let mut results = Vec::new();
+        let mut refused = false;
+        for (scene, name) in self.fragments.iter().zip(&names) {
+            let list = load(scene, &self.options)?;
+            let truth = Truth::new(&list, background);
+            let mut remarks = String::new();
+            let folder = self.out.join(name);
+            let mut sheet = match truth.image() {
+                Ok(image) => {
+                    write_image(&folder.join("truth.png"), replace, image)?;
+                    Some(Sheet::new(name, &list, image))
+                }
+                // Errors of T need no image.
+                Err(why) => {
+                    remarks += &format!("no pictures, {why}\n");
+                    None
+                }
+            };
+            let progress = ui.progress("evaluate", methods.len() as u64);
+            let mut found: Vec<MethodResult> = Vec::new();
+            let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
+            for (index, (method, demanded)) in methods.iter().enumerate() {
+                progress.set(index as u64, format!("{name}: {}", method.name()));
+                let judged = match truth.judge(&**method, context) {
+                    Ok(judged) => judged,
+                    Err(why) => {
+                        refused |= *demanded;
+                        remarks += &format!("not applied, {why}\n");
+                        results.push(json!({ "scene": name, "method": method.name(), "error": why.to_string() }));
+                        continue;
+                    }
+                };
+                let stem = (1..).map(|n| if n == 1 { file_stem(&method.name()) } else { format!("{}-{n}", file_stem(&method.name())) });
+                let stem = stem.into_iter().find(|s| !stems.contains(s)).expect("there are more numbers than methods");
+                write_method(&folder, &stem, replace, &judged)?;
+                stems.insert(stem);
+                if let Some(sheet) = &mut sheet {
+                    sheet.add(&judged)?;
+                }
+                found.push(judged.result);
+            }
+            progress.finish();
+            sort_by_error(&mut found);
+            if let Some(sheet) = sheet.filter(|_| !found.is_empty()) {
+                sheet.write(&folder.join("sheet.png"), replace)?;
+            }
+            let heading = format!("{name}: {} fragments, at most {} in a pixel\n", list.len(), list.depth_complexity());
+            if !ui.json() {
+                ui.print(&format!("{heading}{}{remarks}\n", rows(&found)))?;
+            }
+            results.extend(found.iter().map(|r| with_scene(r, name)));
+        }
+        let report = report("evaluate", results);
+        let json = serde_json::to_string_pretty(&report)? + "\n";
+        write_atomically(&self.out.join(RESULTS), replace, |w| w.write_all(json.as_bytes()))?;
+        if ui.json() {
+            ui.print(&json)?;
+        } else {
+            ui.print(&format!("{}\n", self.out.display()))?;
+        }
+        if refused {
+            bail!("a method that was asked for by name could not be applied; see above");
+        }
+        Ok(Verdict::Fine)
+    }
+
+    /// The methods, each with whether it was asked for by its own name.
+    fn methods(&self) -> anyhow::Result<Vec<(Box<dyn Method>, bool)>> {
+        let mut methods = Vec::new();
+        let mut seen = HashSet::new();
+        for name in &self.methods {
+            let (names, demanded) = if name == "all" { (all_names(), false) } else { (vec![name.clone()], true) };
+            for name in names {
+                if seen.insert(name.clone()) {
+                    methods.push((parse(&name)?, demanded));
+                }
+            }
+        }
+        for path in &self.model {
+            methods.push((Box::new(Neural::new(file::load(path)?)) as Box<dyn Method>, true));
+        }
+        Ok(methods)
+    }
+}
+
+/// A name for each scene: its file's stem, told apart by numbers where two have one.
+fn scene_names(fragments: &[String]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for scene in fragments {
+        let stem = Path::new(scene).file_stem().map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
+        let stem = file_stem(&stem);
+        let free = (2..).map(|n| format!("{stem}-{n}")).find(|n| !names.contains(n));
+        names.push(if names.contains(&stem) { free.expect("there are more numbers than scenes") } else { stem });
+    }
+    names
+}
+
+fn with_scene(result: &MethodResult, scene: &str) -> Value {
+    let mut value = serde_json::to_value(result).expect("results are plain data");
+    if let Some(object) = value.as_object_mut() {
+        object.insert("scene".to_owned(), scene.into());
+    }
+    value
+}
+
+/// Results as a table, in the order in which they stand.
+fn rows(results: &[MethodResult]) -> String {
+    let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| match x {
+        None => "-".to_owned(),
+        Some(x) if x.is_nan() => "NaN".to_owned(),
+        Some(x) => text(x),
+    };
+    let head = ["method", "image MSE x1e-4", "PSNR dB", "FLIP", "T-MSE", "worst T", "non-finite", "bits/pixel", "seconds"];
+    let mut lines = vec![head.map(str::to_owned).to_vec()];
+    for r in results {
+        lines.push(vec![
+            r.method.clone(),
+            number(r.image_mse, &|x| format!("{:.4}", x * 1e4)),
+            number(r.image_psnr_db, &|x| format!("{x:.1}")),
+            number(r.flip_mean, &|x| format!("{x:.4}")),
+            number(r.transmittance_mse, &|x| format!("{x:.2e}")),
+            number(r.transmittance_worst_error, &|x| format!("{x:.3}")),
+            r.nonfinite.to_string(),
+            if r.bits_per_pixel == u32::MAX { "unbounded".to_owned() } else { r.bits_per_pixel.to_string() },
+            format!("{:.3}", r.seconds),
+        ]);
+    }
+    table(&lines)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_of_one_name_are_told_apart() {
+        let names = scene_names(&["a/x.npz", "b/x.npz", "smoke", "x"].map(str::to_owned));
+        assert_eq!(names, ["x", "x-2", "smoke", "x-3"]);
+    }
+}

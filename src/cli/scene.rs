@@ -1,0 +1,98 @@
+//! `nmt scene`
+
+use super::Verdict;
+use super::ui::Ui;
+use crate::numeric::file::{Replace, may_write};
+use crate::pixel::FragmentList;
+use crate::scene::{self, BUILT_IN, Options, SceneError, exr, npz};
+use anyhow::{Context as _, bail};
+use clap::Args;
+use serde_json::json;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[derive(Args)]
+pub struct Scene {
+    /// glass-stacks, smoke, hair, foliage, spheres, teapots; or a scene file (.toml), a fragment list (.npz) or a deep image (.exr).
+    scene: String,
+    /// Fragment list to write: .npz, or .exr for a deep image.
+    #[arg(long, value_name = "F.npz")]
+    out: PathBuf,
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Replace what is there.
+    #[arg(long)]
+    force: bool,
+}
+
+/// How a scene is rendered.
+#[derive(Args, Clone, Default)]
+pub struct SceneOptions {
+    /// Size of the image instead of the scene's own, as 1024x768.
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// Seed of a built-in scene.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT, as 1024x768")?;
+    match (width.parse(), height.parse()) {
+        (Ok(width), Ok(height)) => Ok((width, height)),
+        _ => Err("expected two whole numbers, as 1024x768".to_owned()),
+    }
+}
+
+/// The fragments of a scene by its name, or of a file.
+pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
+    let path = Path::new(name);
+    let is_list = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
+    if is_list && !BUILT_IN.contains(&name) {
+        if options.size.is_some() || options.seed.is_some() {
+            bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
+        }
+        return Ok(scene::read(path)?);
+    }
+    let scene = scene::open(name)?;
+    Ok(scene::build(&scene, &Options { size: options.size, seed: options.seed })?)
+}
+
+impl Scene {
+    pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        may_write(&self.out, replace)?;
+        let deep = match self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+            Some("npz") => false,
+            Some("exr") => true,
+            _ => return Err(SceneError::UnknownFormat { path: self.out }).context("--out"),
+        };
+        let start = Instant::now();
+        let list = load(&self.scene, &self.options)?;
+        let seconds = start.elapsed().as_secs_f64();
+        if deep {
+            exr::write(&self.out, replace, &list)?;
+        } else {
+            npz::write(&self.out, replace, &list)?;
+        }
+        if ui.json() {
+            let (width, height) = list.size().unzip();
+            ui.print_json(
+                "scene",
+                vec![json!({
+                    "scene": self.scene, "file": self.out, "pixels": list.pixels(), "width": width, "height": height, "fragments": list.len(),
+                    "depth_complexity": list.depth_complexity(), "seconds": seconds,
+                })],
+            )?;
+        } else {
+            ui.print(&format!(
+                "{} fragments in {} pixels (at most {} in one), {seconds:.2} s\n{}\n",
+                list.len(),
+                list.pixels(),
+                list.depth_complexity(),
+                self.out.display()
+            ))?;
+        }
+        Ok(Verdict::Fine)
+    }
+}
