@@ -24,7 +24,7 @@ pub struct Predict {
     /// Fragment list to answer; a deep image (.exr) is taken too.
     #[arg(long, value_name = "F.npz")]
     fragments: PathBuf,
-    /// Transmittance of every fragment, f32 [F], in the order of the list.
+    /// NumPy array to write: transmittance of every fragment, f32, in the order of the list.
     #[arg(long, value_name = "T.npy")]
     out: PathBuf,
     /// Near plane of the camera, instead of the list's own [scene units].

@@ -128,7 +128,7 @@ pub enum DatasetFileError {
 }
 
 impl Part {
-    /// Describes rows as [`write`] writes them.
+    /// Describes rows as [`write()`] writes them.
     pub fn of(part: &str, rows: &Rows, pixels: usize) -> Self {
         let files = encoded(part, rows).map(|(file, bytes)| ArrayFile { file, sha256: sha256_hex([bytes.as_slice()]) });
         Self { pixels, pairs: rows.len(), files }

@@ -116,7 +116,7 @@ const P_C: f64 = 0.4;
 const P_T: f64 = 0.95;
 /// Exponent of feature differences.
 const Q_F: f64 = 0.5;
-/// Width of the feature detector [degrees].
+/// Width of the feature detector \[degrees\].
 const FEATURE_WIDTH: f64 = 0.082;
 
 /// Contrast sensitivities as sums of Gaussians in space: (a, b) of a √(π/b) exp(−π² x²/b), x in degrees.

@@ -75,7 +75,7 @@ impl ImageError {
         self.0.mse()
     }
 
-    /// Peak signal-to-noise ratio for a peak of 1: −10 log10(MSE) [dB]; infinite for equal images, NaN where the MSE is.
+    /// Peak signal-to-noise ratio for a peak of 1: −10 log10(MSE) \[dB\]; infinite for equal images, NaN where the MSE is.
     pub fn psnr(&self) -> f64 {
         -10.0 * libm::log10(self.mse())
     }

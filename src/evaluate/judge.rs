@@ -13,7 +13,7 @@ use std::time::Instant;
 pub struct MethodResult {
     /// Name of the method.
     pub method: String,
-    /// Memory of pass 1 and the composite [bits].
+    /// Memory of pass 1 and the composite \[bits\].
     pub bits_per_pixel: u32,
     /// Mean squared error of T over all fragments; none for methods whose weights are not transmittances and lists without fragments, NaN
     /// where a weight is not finite.
@@ -23,7 +23,7 @@ pub struct MethodResult {
     /// Mean squared error of the image over all pixels and channels, unclamped; none where the list makes no image (no colours, no size,
     /// no pixels), NaN where a channel is not finite.
     pub image_mse: Option<f64>,
-    /// Peak signal-to-noise ratio of the image for a peak of 1 [dB]; none and NaN as for the MSE, and infinite, null in JSON, where that is 0.
+    /// Peak signal-to-noise ratio of the image for a peak of 1 \[dB\]; none and NaN as for the MSE, and infinite, null in JSON, where that is 0.
     pub image_psnr_db: Option<f64>,
     /// Mean of the FLIP map; none and NaN as for the MSE.
     pub flip_mean: Option<f64>,
@@ -31,11 +31,11 @@ pub struct MethodResult {
     pub nonfinite: u64,
     /// Number of channel values of the image that are not finite; none where the list makes no image.
     pub image_nonfinite: Option<u64>,
-    /// Time of both passes, without the composite [s].
+    /// Time of both passes, without the composite \[s\].
     pub seconds: f64,
-    /// Time of pass 1, and of whatever else the method does for all pixels at once [s].
+    /// Time of pass 1, and of whatever else the method does for all pixels at once \[s\].
     pub seconds_accumulate: f64,
-    /// Time of the weights of all fragments [s].
+    /// Time of the weights of all fragments \[s\].
     pub seconds_weights: f64,
 }
 

@@ -92,13 +92,13 @@ pub fn write_method(folder: &Path, stem: &str, replace: Replace, judged: &Judged
     write_flip(&folder.join(format!("{stem}.flip.png")), replace, map)
 }
 
-/// Greatest width and height of an image on a sheet [pixels].
+/// Greatest width and height of an image on a sheet \[pixels\].
 const PANEL: u32 = 336;
-/// Between panels [pixels].
+/// Between panels \[pixels\].
 const GAP: u32 = 8;
-/// Around the sheet and between its cells [pixels].
+/// Around the sheet and between its cells \[pixels\].
 const MARGIN: u32 = 28;
-/// Height of a line of scale 2 with what is below it [pixels].
+/// Height of a line of scale 2 with what is below it \[pixels\].
 const LINE: u32 = 2 * text::HEIGHT + 6;
 /// The crop is this share of the image's width and height.
 const CROP: u32 = 8;

@@ -23,7 +23,7 @@ fn extent(rows: &[u8; 8]) -> (u32, u32) {
     (ink.trailing_zeros(), 8 - ink.leading_zeros() - ink.trailing_zeros())
 }
 
-/// Width of a line of text [pixels].
+/// Width of a line of text \[pixels\].
 pub fn width(text: &str, scale: u32) -> u32 {
     let columns: u32 = text.chars().map(|c| extent(&glyph(c)).1 + 1).sum();
     columns.saturating_sub(1) * scale

@@ -4,7 +4,7 @@ use crate::numeric::Real;
 use crate::numeric::orthogonal::{MassBounds, Orthogonal};
 use crate::pixel::MomentDepth;
 
-/// Weight of the upper bound in the estimate [dimensionless].
+/// Weight of the upper bound in the estimate \[dimensionless\].
 ///
 /// # Source
 /// MKKP18 Sec. 3.2.
@@ -13,7 +13,7 @@ pub const OVERESTIMATION: f64 = 0.25;
 /// Regularisation of normalised moments: b ← (1 − s) b + s b*, which moves them away from the edge of what is a measure's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bias {
-    /// s, the `moment_bias` [dimensionless].
+    /// s, the `moment_bias` \[dimensionless\].
     pub strength: f64,
     /// b*_1..b*_m, moments of a measure of mass 1; longer than m is fine.
     pub target: [f64; 8],

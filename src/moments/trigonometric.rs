@@ -5,7 +5,7 @@ use crate::numeric::complex::Complex;
 use crate::numeric::unit_circle::Szego;
 use crate::pixel::MomentDepth;
 
-/// θ, the arc of the circle that no depth maps to and where depths wrap around [radians].
+/// θ, the arc of the circle that no depth maps to and where depths wrap around \[radians\].
 ///
 /// # Source
 /// MKKP18 Sec. 5.2.
@@ -58,7 +58,7 @@ fn order<R: Real>(x: Complex<R>) -> R {
     }
 }
 
-/// `moment_bias` of M trigonometric moments [dimensionless], M one of 2, 3, 4: b_k ← (1 − bias) b_k.
+/// `moment_bias` of M trigonometric moments \[dimensionless\], M one of 2, 3, 4: b_k ← (1 − bias) b_k.
 ///
 /// # Source
 /// MKKP18, supplementary document.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
-/// Greatest size of one array that is read [bytes].
+/// Greatest size of one array that is read \[bytes\].
 const LARGEST_ARRAY: u64 = 16 << 30;
 
 /// Why an array could not be read.

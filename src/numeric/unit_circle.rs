@@ -5,7 +5,7 @@ use super::Real;
 use super::complex::Complex;
 use super::roots::{MOST_ROOTS, real_roots};
 
-/// κ[j][t]: coefficient of (i s)^t in (1 + i s)^j (1 − i s)^(m − j).
+/// κ\[j\]\[t\]: coefficient of (i s)^t in (1 + i s)^j (1 − i s)^(m − j).
 type Krawtchouk = [[f64; MOST_ROOTS + 1]; MOST_ROOTS + 1];
 
 const fn krawtchouk(m: usize) -> Krawtchouk {

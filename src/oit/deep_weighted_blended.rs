@@ -125,7 +125,7 @@ mod tests {
         train.validate().unwrap();
         assert_eq!((name.as_str(), dataset.features), (NAME, FeatureSet::DeepWeightedBlended));
         assert_eq!((train.hidden, train.epochs, train.batch, train.learning_rate), (vec![10, 8], 150, 128, 1e-4));
-        assert_eq!((dataset.training_pairs, dataset.validation_pairs), (1_035_120, 509_835));
+        assert_eq!((dataset.training_pairs, dataset.validation_pairs), (250_000, 50_000));
     }
 
     #[test]

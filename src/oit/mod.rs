@@ -67,7 +67,7 @@ pub trait Method: Send + Sync {
     /// Its name on the command line.
     fn name(&self) -> String;
 
-    /// What pass 1 and the composite keep of a pixel [bits].
+    /// What pass 1 and the composite keep of a pixel \[bits\].
     fn bits_per_pixel(&self) -> u32;
 
     /// Whether its weights are transmittances, so that an error of T can be stated.

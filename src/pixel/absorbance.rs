@@ -1,6 +1,6 @@
 //! Absorbance: the additive form of opacity.
 
-/// Greatest absorbance of one fragment [dimensionless]; an opaque fragment leaves e^−10 of the light (the usual clamp of shipped renderers).
+/// Greatest absorbance of one fragment \[dimensionless\]; an opaque fragment leaves e^−10 of the light (the usual clamp of shipped renderers).
 pub const ABSORBANCE_MAX: f64 = 10.0;
 
 /// Absorbance of a fragment: A = min(−ln(1 − alpha), 10).

@@ -53,11 +53,11 @@ pub struct Camera {
     /// The direction that is up in the picture.
     #[serde(default = "y_up")]
     pub up: Vec3,
-    /// Full vertical angle of view, in (0, 180) [degrees].
+    /// Full vertical angle of view, in (0, 180) \[degrees\].
     pub vertical_fov: f64,
-    /// Columns [pixels].
+    /// Columns \[pixels\].
     pub width: u32,
-    /// Rows [pixels].
+    /// Rows \[pixels\].
     pub height: u32,
     /// Nearest view depth that is seen [scene units].
     pub near: f32,

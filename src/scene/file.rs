@@ -43,7 +43,7 @@ pub struct MeshEntry {
     pub materials: BTreeMap<String, Look>,
     /// Size factor, > 0.
     pub scale: Option<f64>,
-    /// Angles about x, y and z [degrees].
+    /// Angles about x, y and z \[degrees\].
     pub rotate: Option<Vec3>,
     /// Where the mesh's origin is put [scene units].
     pub translate: Option<Vec3>,

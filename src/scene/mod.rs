@@ -25,7 +25,7 @@ pub const MOST_FRAGMENTS: u64 = 1 << 28;
 /// What a caller may change about a scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Columns and rows in place of the camera's [pixels].
+    /// Columns and rows in place of the camera's \[pixels\].
     pub size: Option<(u32, u32)>,
     /// Seed of a built-in scene in place of the scene file's.
     pub seed: Option<u64>,

@@ -45,7 +45,7 @@ pub struct Geometry {
 
 /// Subpixel steps in a pixel.
 const STEPS: i64 = 256;
-/// Greatest distance of a snapped vertex from the picture's centre [pixels]; products of two such distances in subpixel steps fit 64 bits.
+/// Greatest distance of a snapped vertex from the picture's centre \[pixels\]; products of two such distances in subpixel steps fit 64 bits.
 const GUARD: f64 = (1 << 20) as f64;
 /// Rows of a band.
 const BAND: usize = 8;
@@ -72,7 +72,7 @@ struct ScreenTriangle {
 
 /// A particle on the screen.
 struct ScreenParticle {
-    /// Centre and radius [pixels].
+    /// Centre and radius \[pixels\].
     center: (f64, f64),
     radius: f64,
     view_z: f32,

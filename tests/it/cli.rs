@@ -391,7 +391,8 @@ fn bad_files() {
     std::fs::write(at.path("cut.npz"), &whole[..whole.len() / 2]).unwrap();
     let predict = |fragments: &str| nmt(&["predict", &model, "--fragments", fragments, "--out", &at.path("t.npy")]).code(2);
     predict(&at.path("cut.npz")).stderr(contains("cut.npz: not a readable .npz archive"));
-    predict(&at.config()).stderr(contains("not a readable .npz archive"));
+    predict(&at.config()).stderr(contains("ends in .npz or .exr"));
+    predict(&at.write("text.npz", "not an archive")).stderr(contains("text.npz: not a readable .npz archive"));
     predict(&at.path("none.npz")).stderr(contains("none.npz: cannot read"));
     assert!(!Path::new(&at.path("t.npy")).exists());
     nmt(&["export", &at.config(), "--out", &at.path("e")]).code(2).stderr(contains("not a model file"));
