@@ -51,6 +51,19 @@ fn unsupported<T>(what: impl std::fmt::Debug) -> Result<T> {
     Err(InterpretError::Unsupported(name))
 }
 
+impl Value<1> {
+    /// A value that is the same in every lane, in any number of lanes.
+    fn in_lanes<const L: usize>(&self) -> Result<Value<L>> {
+        Ok(match self {
+            Self::Uniform(x) => Value::Uniform(*x),
+            Self::Index(i) => Value::Index(*i),
+            Self::Bools(b) => Value::Bools(Arc::new([b[0]; L])),
+            Self::Composite(items) => Value::Composite(items.iter().map(Self::in_lanes).collect::<Result<_>>()?),
+            Self::Lanes(x) => Value::Uniform(x[0]),
+        })
+    }
+}
+
 impl<const L: usize> Value<L> {
     /// A vector or array of numbers, the same in every lane.
     pub fn numbers(values: &[f32]) -> Self {
@@ -178,12 +191,20 @@ impl<const L: usize> Value<L> {
 /// A module whose functions can be called.
 pub struct Interpreter<'a> {
     module: &'a Module,
+    /// Values of its constants, in the order of their handles.
+    constants: Vec<Result<Value<1>>>,
 }
 
 impl<'a> Interpreter<'a> {
     /// An interpreter of a validated module.
     pub fn new(module: &'a Module) -> Self {
-        Self { module }
+        let constants = module.constants.iter().map(|(_, constant)| global(module, constant.init)).collect();
+        Self { module, constants }
+    }
+
+    /// A constant that a function names, as it is in every lane.
+    fn constant_value<const L: usize>(&self, handle: Handle<naga::Constant>) -> Result<Value<L>> {
+        self.constants[handle.index()].as_ref().map_err(Clone::clone)?.in_lanes()
     }
 
     /// All numbers of a module constant, in order.
@@ -192,8 +213,8 @@ impl<'a> Interpreter<'a> {
     /// [`InterpretError::NoConstant`] where there is none of this name.
     pub fn constant(&self, name: &str) -> Result<Vec<f32>> {
         let found = self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
-        let (_, constant) = found.ok_or_else(|| InterpretError::NoConstant(name.to_owned()))?;
-        self.global::<1>(constant.init)?.flatten()
+        let (handle, _) = found.ok_or_else(|| InterpretError::NoConstant(name.to_owned()))?;
+        self.constants[handle.index()].as_ref().map_err(Clone::clone)?.flatten()
     }
 
     /// Names of the module's constants.
@@ -238,30 +259,6 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// A constant expression of the module.
-    fn global<const L: usize>(&self, handle: Handle<Expression>) -> Result<Value<L>> {
-        match &self.module.global_expressions[handle] {
-            Expression::Literal(literal) => literal_value(*literal),
-            Expression::Constant(constant) => self.global(self.module.constants[*constant].init),
-            Expression::Compose { components, .. } => components.iter().map(|&c| self.global(c)).collect::<Result<_>>().map(Value::Composite),
-            Expression::Splat { size, value } => Ok(splat(self.global(*value)?, *size as usize)),
-            Expression::ZeroValue(ty) => self.zero(*ty),
-            Expression::Unary { op: UnaryOperator::Negate, expr } => self.global::<L>(*expr)?.map(&|x| -x),
-            other => unsupported(other),
-        }
-    }
-
-    fn zero<const L: usize>(&self, ty: Handle<naga::Type>) -> Result<Value<L>> {
-        let copies = |n: usize, item: Value<L>| Value::Composite((0..n).map(|_| item.clone()).collect());
-        match self.module.types[ty].inner {
-            TypeInner::Scalar(naga::Scalar { kind: naga::ScalarKind::Float, .. }) => Ok(Value::Uniform(0.0)),
-            TypeInner::Vector { size, .. } => Ok(copies(size as usize, Value::Uniform(0.0))),
-            TypeInner::Matrix { columns, rows, .. } => Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0)))),
-            TypeInner::Array { base, size: naga::ArraySize::Constant(n), .. } => Ok(copies(n.get() as usize, self.zero(base)?)),
-            ref other => unsupported(other),
-        }
-    }
-
     fn run<const L: usize>(&self, function: &'a Function, arguments: Vec<Value<L>>) -> Result<Value<L>> {
         if arguments.len() != function.arguments.len() {
             return Err(InterpretError::Operands("a call"));
@@ -271,7 +268,7 @@ impl<'a> Interpreter<'a> {
             let mut frame = Frame { interpreter: self, function, arguments: &[], locals: Vec::new(), values: Vec::new() };
             locals.push(match local.init {
                 Some(init) => frame.value(init)?,
-                None => self.zero(local.ty)?,
+                None => zero(self.module, local.ty)?,
             });
         }
         let mut frame = Frame { interpreter: self, function, arguments: &arguments, locals, values: vec![None; function.expressions.len()] };
@@ -279,6 +276,30 @@ impl<'a> Interpreter<'a> {
             Flow::Return(Some(value)) => Ok(value),
             _ => Err(InterpretError::NoValue),
         }
+    }
+}
+
+/// A constant expression of a module.
+fn global(module: &Module, handle: Handle<Expression>) -> Result<Value<1>> {
+    match &module.global_expressions[handle] {
+        Expression::Literal(literal) => literal_value(*literal),
+        Expression::Constant(constant) => global(module, module.constants[*constant].init),
+        Expression::Compose { components, .. } => components.iter().map(|&c| global(module, c)).collect::<Result<_>>().map(Value::Composite),
+        Expression::Splat { size, value } => Ok(splat(global(module, *value)?, *size as usize)),
+        Expression::ZeroValue(ty) => zero(module, *ty),
+        Expression::Unary { op: UnaryOperator::Negate, expr } => global(module, *expr)?.map(&|x| -x),
+        other => unsupported(other),
+    }
+}
+
+fn zero<const L: usize>(module: &Module, ty: Handle<naga::Type>) -> Result<Value<L>> {
+    let copies = |n: usize, item: Value<L>| Value::Composite((0..n).map(|_| item.clone()).collect());
+    match module.types[ty].inner {
+        TypeInner::Scalar(naga::Scalar { kind: naga::ScalarKind::Float, .. }) => Ok(Value::Uniform(0.0)),
+        TypeInner::Vector { size, .. } => Ok(copies(size as usize, Value::Uniform(0.0))),
+        TypeInner::Matrix { columns, rows, .. } => Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0)))),
+        TypeInner::Array { base, size: naga::ArraySize::Constant(n), .. } => Ok(copies(n.get() as usize, zero(module, base)?)),
+        ref other => unsupported(other),
     }
 }
 
@@ -310,14 +331,14 @@ struct Frame<'a, 'b, const L: usize> {
     values: Vec<Option<Value<L>>>,
 }
 
-impl<const L: usize> Frame<'_, '_, L> {
+impl<'a, const L: usize> Frame<'a, '_, L> {
     fn block(&mut self, block: &naga::Block) -> Result<Flow<L>> {
         for statement in block.iter() {
             match statement {
                 Statement::Emit(range) => {
                     for handle in range.clone() {
-                        // Addresses are worked out where they are used.
-                        if self.place(handle).is_none() {
+                        // Addresses are worked out where they are used, and so are lists, of which one item may be all that is wanted.
+                        if self.place(handle).is_none() && self.list(handle).is_none() {
                             let value = self.evaluate(handle)?;
                             self.values[handle.index()] = Some(value);
                         }
@@ -396,19 +417,38 @@ impl<const L: usize> Frame<'_, '_, L> {
         }
     }
 
+    /// The items of an array or a matrix that an expression puts together.
+    fn list(&self, handle: Handle<Expression>) -> Option<&'a [Handle<Expression>]> {
+        match &self.function.expressions[handle] {
+            Expression::Compose { ty, components } => match self.interpreter.module.types[*ty].inner {
+                TypeInner::Array { .. } | TypeInner::Matrix { .. } => Some(components),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// A part of a composite. Of a constant or a list only that part is brought into the lanes: front ends repeat a whole constant array at each use.
+    fn item(&mut self, base: Handle<Expression>, index: usize) -> Result<Value<L>> {
+        match &self.function.expressions[base] {
+            Expression::Constant(constant) => self.interpreter.constants[constant.index()].as_ref().map_err(Clone::clone)?.item(index)?.in_lanes(),
+            _ => match self.list(base) {
+                Some(items) => self.value(*items.get(index).ok_or(InterpretError::Operands("an index"))?),
+                None => self.value(base)?.item(index),
+            },
+        }
+    }
+
     fn evaluate(&mut self, handle: Handle<Expression>) -> Result<Value<L>> {
         match &self.function.expressions[handle] {
             Expression::Literal(literal) => literal_value(*literal),
-            Expression::Constant(constant) => self.interpreter.global(self.interpreter.module.constants[*constant].init),
-            Expression::ZeroValue(ty) => self.interpreter.zero(*ty),
+            Expression::Constant(constant) => self.interpreter.constant_value(*constant),
+            Expression::ZeroValue(ty) => zero(self.interpreter.module, *ty),
             Expression::Compose { components, .. } => components.iter().map(|&c| self.value(c)).collect::<Result<_>>().map(Value::Composite),
             Expression::Splat { size, value } => Ok(splat(self.value(*value)?, *size as usize)),
             Expression::FunctionArgument(index) => self.arguments.get(*index as usize).cloned().ok_or(InterpretError::Operands("a call")),
-            Expression::AccessIndex { base, index } => self.value(*base)?.item(*index as usize),
-            Expression::Access { base, index } => {
-                let index = self.index(*index)?;
-                self.value(*base)?.item(index)
-            }
+            Expression::AccessIndex { base, index } => self.item(*base, *index as usize),
+            Expression::Access { base, index } => self.item(*base, self.index(*index)?),
             Expression::Load { pointer } => {
                 let (local, path) = self.place(*pointer).ok_or(InterpretError::Operands("a load"))?;
                 path.iter().try_fold(self.locals[local].clone(), |value, &index| value.item(index))

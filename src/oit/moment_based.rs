@@ -2,6 +2,7 @@
 
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
+use std::cell::OnceCell;
 
 /// Bits of the colour target that the composite reads: four half-precision channels.
 ///
@@ -134,11 +135,17 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
             return;
         }
         let ends = ends(pixel);
+        let with_own = OnceCell::new();
         for ((out, &v), &alpha) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
             let own = absorbance(alpha);
             *out = exact(v, ends, own, total).unwrap_or_else(|| {
                 let sample = Sample { z: place(v), absorbance: own };
-                family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z)
+                let others = family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z);
+                // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing that, all that
+                // is known of the others' absorbance in front is that it lies between none and all.
+                let nothing_known = libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0));
+                let candidates = [others, family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z), nothing_known];
+                candidates.into_iter().find(|t| t.is_finite()).unwrap_or(nothing_known)
             });
         }
     }

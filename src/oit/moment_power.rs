@@ -10,13 +10,14 @@ use crate::pixel::MomentDepth;
 
 /// Names on the command line.
 pub const ENTRIES: [Entry; 3] = [
-    Entry { head: "moment-power-4", pattern: "moment-power-4[:f32|unorm16|nlqm][+own]", names, build: build::<2, 5> },
-    Entry { head: "moment-power-6", pattern: "moment-power-6[:f32|unorm16|nlqm][+own]", names, build: build::<3, 7> },
-    Entry { head: "moment-power-8", pattern: "moment-power-8[:f32|unorm16|nlqm][+own]", names, build: build::<4, 9> },
+    Entry { head: "moment-power-4", pattern: "moment-power-4[:f32|unorm16][+own], moment-power-4:nlqm", names, build: build::<2, 5> },
+    Entry { head: "moment-power-6", pattern: "moment-power-6[:f32|unorm16][+own], moment-power-6:nlqm", names, build: build::<3, 7> },
+    Entry { head: "moment-power-8", pattern: "moment-power-8[:f32|unorm16][+own], moment-power-8:nlqm", names, build: build::<4, 9> },
 ];
 
 fn names(head: &str) -> Vec<String> {
-    ["", ":f32", ":unorm16", ":nlqm"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]).collect()
+    let linear = ["", ":f32", ":unorm16"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]);
+    linear.chain([format!("{head}:nlqm")]).collect()
 }
 
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
@@ -24,6 +25,8 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
         None => Storage::F64,
         Some("f32") => Storage::F32,
         Some("unorm16") => Storage::Unorm16,
+        // Its quantities are no sums: one fragment cannot be taken out of them.
+        Some("nlqm") if arguments.own => return Err(arguments.wrong("expected f32 or unorm16 before +own")),
         Some("nlqm") => Storage::Nlqm,
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
