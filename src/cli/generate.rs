@@ -3,7 +3,7 @@
 use super::config::Config;
 use super::scene::{SceneOptions, load};
 use super::ui::Ui;
-use super::{Verdict, ui};
+use super::{Verdict, keep_inputs, ui};
 use crate::dataset::{self, Dataset, file};
 use crate::numeric::file::{Replace, may_write};
 use crate::pixel::FragmentList;
@@ -39,6 +39,7 @@ impl Generate {
         let config = Config::load(&self.config)?;
         file::may_write_to(&self.out, replace)?;
         if let Some(path) = &self.fragments {
+            keep_inputs(&[&self.config], path)?;
             may_write(path, replace)?;
         }
         let start = Instant::now();

@@ -1,7 +1,7 @@
 //! `nmt import`
 
-use super::Verdict;
 use super::ui::Ui;
+use super::{Verdict, keep_inputs};
 use crate::features::FeatureSet;
 use crate::model::file;
 use crate::numeric::file::Replace;
@@ -33,6 +33,7 @@ impl Import {
         let Some(set) = FeatureSet::ALL.into_iter().find(|s| s.name() == self.features) else {
             bail!("--features '{}': known are {}", self.features, FeatureSet::ALL.map(FeatureSet::name).join(", "));
         };
+        keep_inputs(&[&self.weights], &self.out)?;
         let stem = self.out.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
         let mlp = file::import(&self.weights, &self.name.unwrap_or(stem), set)?;
         file::save(&self.out, if self.force { Replace::Yes } else { Replace::No }, &mlp)?;

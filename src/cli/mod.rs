@@ -68,6 +68,28 @@ enum Verdict {
     Interrupted,
 }
 
+/// An error with its causes, each said once: many messages hold their cause already.
+fn explain(error: &anyhow::Error) -> String {
+    error.chain().skip(1).fold(error.to_string(), |text, cause| {
+        let cause = cause.to_string();
+        if text.contains(&cause) { text } else { format!("{text}: {cause}") }
+    })
+}
+
+/// Refuses to write over a file that the same command reads.
+///
+/// # Errors
+/// Where `out` is one of `inputs`.
+fn keep_inputs(inputs: &[&std::path::Path], out: &std::path::Path) -> anyhow::Result<()> {
+    let place = |path: &std::path::Path| path.canonicalize().ok();
+    match place(out) {
+        Some(there) if inputs.iter().any(|input| place(input).as_ref() == Some(&there)) => {
+            anyhow::bail!("{}: is read by this very command; choose another output", out.display())
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
 /// it was interrupted.
 pub fn main() -> ExitCode {
@@ -90,7 +112,7 @@ pub fn main() -> ExitCode {
         Ok(Verdict::CheckFailed) => ExitCode::from(1),
         Ok(Verdict::Interrupted) => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
-            eprintln!("error: {error:#}");
+            eprintln!("error: {}", explain(&error));
             ExitCode::from(2)
         }
     }

@@ -1,7 +1,7 @@
 //! `nmt predict`
 
-use super::Verdict;
 use super::ui::Ui;
+use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
 use crate::features::OutputMeaning;
 use crate::model::file;
@@ -41,6 +41,7 @@ pub struct Predict {
 impl Predict {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
+        keep_inputs(&[&self.model, &self.fragments], &self.out)?;
         may_write(&self.out, replace)?;
         let mlp = file::load(&self.model)?;
         let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;

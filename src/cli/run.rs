@@ -45,12 +45,11 @@ impl Run {
         let out = self.out.unwrap_or_else(|| Path::new("target/nmt").join(&config.name));
         let model = out.join("model.json");
         let checkpoint = path_for(&model);
-        claim(&out)?;
+        claim(&out, &config.name, self.train.force)?;
         self.train.settle_checkpoint(&checkpoint)?;
         let (dataset_folder, exports) = (out.join("dataset"), out.join("exports"));
-        let resume_keeps = if self.train.resume { vec![checkpoint.clone()] } else { vec![] };
-        clear(&out, &resume_keeps)?;
-        write_json(&out.join(MARKER), &report("run", vec![]))?;
+        clear(&out, self.train.resume)?;
+        write_json(&out.join(MARKER), &report("run", vec![json!({ "name": config.name })]))?;
 
         let stages = ui.stage();
         let start = Instant::now();
@@ -89,8 +88,8 @@ impl Run {
     }
 }
 
-/// Refuses a folder that holds something and that `run` did not make.
-fn claim(out: &Path) -> anyhow::Result<()> {
+/// Refuses a folder that holds something and that `run` did not make, or made of another configuration.
+fn claim(out: &Path, name: &str, force: bool) -> anyhow::Result<()> {
     let holds_something = match std::fs::read_dir(out) {
         Ok(mut entries) => entries.next().is_some(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
@@ -99,19 +98,20 @@ fn claim(out: &Path) -> anyhow::Result<()> {
     if holds_something && !out.join(MARKER).exists() {
         bail!("{}: holds files that 'nmt run' did not make; choose another --out", out.display());
     }
+    let marker = std::fs::read(out.join(MARKER)).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+    if let Some(other) = marker.as_ref().and_then(|m| m["results"][0]["name"].as_str()).filter(|other| *other != name && !force) {
+        bail!("{}: holds the run of the configuration '{other}'; choose another --out, or pass --force to replace it", out.display());
+    }
     create_folder(out)?;
     Ok(())
 }
 
-/// Takes away what an earlier run wrote, and nothing else.
-fn clear(out: &Path, keep: &[PathBuf]) -> Result<(), FileError> {
-    for name in ["dataset", "exports", "model.json", "model.losses.csv", "model.checkpoint.json"] {
+/// Takes away an earlier run's model, which does not belong to what comes; its dataset and exports are replaced file by file.
+fn clear(out: &Path, resume: bool) -> Result<(), FileError> {
+    let checkpoint = (!resume).then_some("model.checkpoint.json");
+    for name in ["model.json", "model.losses.csv"].into_iter().chain(checkpoint) {
         let path = out.join(name);
-        if keep.contains(&path) {
-            continue;
-        }
-        let removed = if path.is_dir() { std::fs::remove_dir_all(&path) } else { std::fs::remove_file(&path) };
-        match removed {
+        match std::fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(FileError::io(&path, "cannot remove an earlier run's")(error)),
             _ => {}
         }

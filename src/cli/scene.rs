@@ -1,7 +1,7 @@
 //! `nmt scene`
 
-use super::Verdict;
 use super::ui::Ui;
+use super::{Verdict, keep_inputs};
 use crate::numeric::file::{Replace, may_write};
 use crate::pixel::FragmentList;
 use crate::scene::{self, BUILT_IN, Options, SceneError, exr, npz};
@@ -61,6 +61,7 @@ pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> 
 impl Scene {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
+        keep_inputs(&[Path::new(&self.scene)], &self.out)?;
         may_write(&self.out, replace)?;
         let deep = match self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("npz") => false,

@@ -2,7 +2,7 @@
 
 use super::config::Config;
 use super::ui::Ui;
-use super::{Verdict, generate, interrupt};
+use super::{Verdict, generate, interrupt, keep_inputs};
 use crate::dataset::{Dataset, file as dataset_file};
 use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
@@ -90,6 +90,7 @@ impl Train {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.options.force { Replace::Yes } else { Replace::No };
         let config = self.options.configure(&self.config)?;
+        keep_inputs(&[&self.config], &self.out)?;
         may_write(&self.out, replace)?;
         may_write(&losses_path(&self.out), replace)?;
         let checkpoint = path_for(&self.out);

@@ -12,6 +12,12 @@ pub enum FileError {
         /// The file.
         path: PathBuf,
     },
+    /// What stands there is a folder, a device or the like.
+    #[error("{}: is not a regular file; choose another path", path.display())]
+    NotRegular {
+        /// What stands there.
+        path: PathBuf,
+    },
     /// The operating system refused.
     #[error("{}: {action}: {source}", path.display())]
     Io {
@@ -67,6 +73,12 @@ pub fn create_folder(path: &Path) -> Result<(), FileError> {
 /// what stood at `path` is untouched and the temporary file is gone.
 pub fn write_atomically(path: &Path, replace: Replace, write: impl FnOnce(&mut dyn WriteSeek) -> io::Result<()>) -> Result<(), FileError> {
     may_write(path, replace)?;
+    // A link stays a link: what it names is replaced.
+    let target = if path.is_symlink() { path.canonicalize().map_err(FileError::io(path, "cannot follow the link"))? } else { path.to_owned() };
+    let path = target.as_path();
+    if path.exists() && !path.is_file() {
+        return Err(FileError::NotRegular { path: path.to_owned() });
+    }
     let folder = match path.parent() {
         Some(p) if !p.as_os_str().is_empty() => p,
         _ => Path::new("."),
@@ -146,5 +158,13 @@ mod tests {
         assert!(matches!(write_atomically(&path, Replace::No, |_| Ok(())), Err(FileError::Exists { .. })));
         write_atomically(&path, Replace::Yes, |w| w.write_all(b"new")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert!(matches!(write_atomically(folder.path(), Replace::Yes, |_| Ok(())), Err(FileError::NotRegular { .. })));
+        #[cfg(unix)]
+        {
+            let link = folder.path().join("link");
+            std::os::unix::fs::symlink(&path, &link).unwrap();
+            write_atomically(&link, Replace::Yes, |w| w.write_all(b"through")).unwrap();
+            assert!(link.is_symlink() && std::fs::read(&path).unwrap() == b"through");
+        }
     }
 }

@@ -60,6 +60,16 @@ pub enum CheckpointError {
         /// What is wrong.
         reason: String,
     },
+    /// It has gone further than is asked for.
+    #[error("{}: {done} epochs are done already, more than the {epochs} that are asked for; ask for at least {done}, or train anew", path.display())]
+    Further {
+        /// The file.
+        path: PathBuf,
+        /// Epochs done.
+        done: u64,
+        /// Epochs asked for.
+        epochs: u64,
+    },
     /// It belongs to another training.
     #[error("{}: the checkpoint is of a training with another {what}; use the configuration it began with, or remove it to train anew", path.display())]
     Other {
@@ -126,6 +136,10 @@ impl Checkpoint {
         }
         if self.backend != backend {
             return other("backend");
+        }
+        let done = self.history.len() as u64;
+        if done > config.epochs {
+            return Err(CheckpointError::Further { path: path.to_owned(), done, epochs: config.epochs });
         }
         let moments = &self.moments;
         let lengths = [self.parameters.len(), self.best_parameters.len(), moments.first.len(), moments.second.len()];

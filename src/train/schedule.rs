@@ -307,6 +307,8 @@ mod tests {
         assert!(error(&job(&faster, &path, true)).contains("another training configuration"));
         assert!(error(&Job { seed: 12, ..job(&config, &path, true) }).contains("another seed"));
         assert!(error(&Job { backend: Backend::Ndarray, ..job(&config, &path, true) }).contains("another backend"));
+        let shorter = TrainConfig { epochs: 1, ..config.clone() };
+        assert!(error(&job(&shorter, &path, true)).contains("2 epochs are done already"));
         let longer = TrainConfig { epochs: 6, ..config };
         assert_eq!(finished(train(&dataset, &job(&longer, &path, true), &|| false, &mut |_| {}).unwrap()).1.len(), 6);
     }

@@ -117,6 +117,37 @@ fn run_leaves_folders_of_others_alone() {
     at.write("out/thesis.txt", "mine");
     nmt(&["run", &at.config(), "--out", &at.path("out")]).code(2).stderr(contains("did not make"));
     assert_eq!(std::fs::read_dir(at.path("out")).unwrap().count(), 1);
+
+    // In a folder of its own it replaces its own files only, and no other configuration's run.
+    nmt(&["run", &at.config(), "--out", &at.path("mine"), "--epochs", "1"]).success();
+    at.write("mine/exports/note.txt", "keep");
+    nmt(&["run", &at.config(), "--out", &at.path("mine"), "--epochs", "1"]).success();
+    assert!(Path::new(&at.path("mine/exports/note.txt")).exists());
+    let other = at.write("other.toml", &TINY.replacen("\"tiny\"", "\"other\"", 1));
+    nmt(&["run", &other, "--out", &at.path("mine")]).code(2).stderr(contains("configuration 'tiny'"));
+}
+
+/// No command replaces what it reads, even under --force; and an error says its cause once.
+#[test]
+fn inputs_are_kept() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["scene", "spheres", "--size", "8x8", "--out", &at.path("s.npz")]).success();
+    let same = [
+        vec!["predict", &model, "--fragments", "S", "--out", "S"],
+        vec!["predict", &model, "--fragments", "S", "--out", &model],
+        vec!["scene", "S", "--out", "S"],
+        vec!["import", &model, "--out", &model],
+    ];
+    for arguments in same {
+        let list = at.path("s.npz");
+        let arguments: Vec<&str> = arguments.into_iter().map(|a| if a == "S" { list.as_str() } else { a }).chain(["--force"]).collect();
+        nmt(&arguments).code(2).stderr(contains("this very command"));
+    }
+    nmt(&["train", &at.config(), "--out", &at.config(), "--force"]).code(2).stderr(contains("this very command"));
+    let assert = nmt(&["predict", &model, "--fragments", &at.path("none.npz"), "--out", &at.path("t.npy")]).code(2);
+    let message = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    assert_eq!(message.matches("No such file").count(), 1, "{message}");
 }
 
 #[test]
