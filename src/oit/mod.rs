@@ -114,19 +114,28 @@ pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background
 /// If the pixel has fragments and no colours.
 pub fn composite_with_total(pixel: Pixel<'_>, transmittances: &[f64], total_absorbance: f64, background: [f64; 3]) -> [f64; 3] {
     let behind = libm::exp(-total_absorbance);
+    let (sum, total) = weighted_sums(pixel, transmittances);
+    let scale = if total > 0.0 { (1.0 - behind) / total } else { 0.0 };
+    std::array::from_fn(|c| scale * sum[c] + behind * background[c])
+}
+
+/// Σ a w C and Σ a w of a pixel, what an additive pass 2 leaves.
+///
+/// # Panics
+/// If the pixel has fragments and no colours.
+fn weighted_sums(pixel: Pixel<'_>, weights: &[f64]) -> ([f64; 3], f64) {
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
     let mut total = 0.0;
     let mut sum = [0.0; 3];
-    for ((&a, c), &t) in pixel.alpha.iter().zip(color).zip(transmittances) {
-        let weight = f64::from(a) * t;
+    for ((&a, c), &w) in pixel.alpha.iter().zip(color).zip(weights) {
+        let weight = f64::from(a) * w;
         total += weight;
         for (s, &c) in sum.iter_mut().zip(c) {
             *s += weight * f64::from(c);
         }
     }
-    let scale = if total > 0.0 { (1.0 - behind) / total } else { 0.0 };
-    std::array::from_fn(|c| scale * sum[c] + behind * background[c])
+    (sum, total)
 }
 
 /// Weights of every fragment of a list, in the order of the list, on all cores.

@@ -141,11 +141,13 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
             *out = exact(v, ends, own, total).unwrap_or_else(|| {
                 let sample = Sample { z: place(v), absorbance: own };
                 let others = family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z);
+                if others.is_finite() {
+                    return others;
+                }
                 // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing that, all that
                 // is known of the others' absorbance in front is that it lies between none and all.
-                let nothing_known = libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0));
-                let candidates = [others, family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z), nothing_known];
-                candidates.into_iter().find(|t| t.is_finite()).unwrap_or(nothing_known)
+                let with_own = family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z);
+                if with_own.is_finite() { with_own } else { libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0)) }
             });
         }
     }

@@ -1,7 +1,7 @@
 //! Bavoil and Myers' weighted average: all fragments of a pixel take on its mean colour and its mean opacity.
 
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError};
+use super::{Accumulated, Context, Method, MethodError, weighted_sums};
 use crate::pixel::{FragmentList, Pixel};
 
 /// Its name on the command line.
@@ -53,17 +53,7 @@ impl Accumulated for Average {
     }
 
     fn composite(&self, pixel: Pixel<'_>, _: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
-        let color = pixel.color.unwrap_or(&[]);
-        assert_eq!(color.len(), pixel.len(), "compositing needs colours");
-        let mut alphas = 0.0;
-        let mut sum = [0.0; 3];
-        for ((&a, c), &w) in pixel.alpha.iter().zip(color).zip(weights) {
-            let a = f64::from(a) * w;
-            alphas += a;
-            for (s, &c) in sum.iter_mut().zip(c) {
-                *s += a * f64::from(c);
-            }
-        }
+        let (sum, alphas) = weighted_sums(pixel, weights);
         if alphas == 0.0 {
             return background;
         }
