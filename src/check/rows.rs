@@ -1,7 +1,7 @@
 //! Feature rows that exports are checked on: as the network was trained on, and far beyond.
 
 use crate::dataset::build::pixels_holding;
-use crate::features::{Extractor, FeatureSet};
+use crate::features::Extractor;
 use crate::model::Mlp;
 use crate::numeric::rng::stream;
 use crate::synth::{Purpose, Synth, SynthConfig};
@@ -47,15 +47,24 @@ impl RowKind {
 pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
     let synth = match mlp.provenance.config.as_ref().and_then(|c| c.get("synth")) {
         Some(synth) => serde_json::from_value(synth.clone()).map_err(|e| format!("provenance.config.synth: {e}"))?,
-        None => match mlp.feature_set() {
-            FeatureSet::Paper | FeatureSet::DeepWeightedBlended => SynthConfig::paper(),
-        },
+        None => SynthConfig::paper(),
     };
     let camera = synth.camera;
     let source = Synth::new(synth, SEED).map_err(|e| format!("provenance.config: {e}"))?;
-    let list = pixels_holding(&source, Purpose::Evaluation, count as u64, &|_| {});
-    let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), None).map_err(|e| e.to_string())?;
-    let mut features = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
+    // Some fragments need no network, and give no row.
+    let mut fragments = count as u64;
+    let mut features = loop {
+        let list = pixels_holding(&source, Purpose::Evaluation, fragments, &|_| {});
+        let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), None).map_err(|e| e.to_string())?;
+        let features = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?.features;
+        if features.len() >= count * mlp.feature_set().width() {
+            break features;
+        }
+        if fragments > 64 * count as u64 {
+            return Err(format!("of {fragments} random fragments hardly any needs the network; there is nothing to check it on"));
+        }
+        fragments *= 2;
+    };
     features.truncate(count * mlp.feature_set().width());
     Ok(CheckRows { kind: RowKind::InDistribution, features })
 }

@@ -45,7 +45,7 @@ impl Predict {
         may_write(&self.out, replace)?;
         let mlp = file::load(&self.model)?;
         let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        if mlp.feature_set().output() != OutputMeaning::Transmittance {
+        if mlp.feature_set().output() == OutputMeaning::FrontToBackFactor {
             bail!("{}: its answer is not a transmittance; 'nmt evaluate --model' shows what it is good for", self.model.display());
         }
         let list = scene::read(&self.fragments)?;

@@ -6,15 +6,15 @@ use super::train::{TrainOptions, Trained, fit};
 use super::ui::{Ui, report, table};
 use super::{Verdict, generate};
 use crate::check::{Finding, Status};
-use crate::dataset::build::{pixels_holding, rows};
+use crate::dataset::build::pixels_holding;
 use crate::dataset::file as dataset_file;
 use crate::evaluate::transmittance_error;
 use crate::export::{self, Format};
-use crate::features::Extractor;
+use crate::features::MomentDepthKind;
 use crate::model::Mlp;
 use crate::numeric::file::{FileError, Replace, create_folder, write_atomically};
 use crate::numeric::tolerance::AbsoluteError;
-use crate::pixel::abuffer;
+use crate::oit::{Context, neural::Neural};
 use crate::synth::{Purpose, Synth};
 use crate::train::checkpoint::path_for;
 use anyhow::bail;
@@ -124,12 +124,14 @@ fn write_json(path: &Path, value: &Value) -> anyhow::Result<()> {
     Ok(write_atomically(path, Replace::Yes, |w| w.write_all(text.as_bytes()))?)
 }
 
-/// Error of T on fresh pixels of the configured distribution.
+/// Error of T on fresh pixels of the configured distribution, over all fragments, those that need no network too.
 fn evaluate(config: &Config, mlp: &Mlp) -> anyhow::Result<AbsoluteError> {
     let synth = Synth::new(config.synth.clone(), config.seed)?;
     let list = pixels_holding(&synth, Purpose::Evaluation, config.evaluate.pairs, &|_| {});
-    let rows = rows(&list, &Extractor::for_list(mlp.feature_set(), &list, None, None)?)?;
-    Ok(transmittance_error(&mlp.forward_batch(&rows.features), &abuffer::list_transmittance(&list)))
+    let camera = config.synth.camera;
+    let depth_range = (mlp.feature_set().moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
+    let answers = Neural::new(mlp.clone()).transmittance(&list, Context { planes: None, depth_range }, &|_| {})?;
+    Ok(transmittance_error(&answers, &mlp.feature_set().target().of_list(&list)))
 }
 
 fn text(out: &Path, trained: &Trained, error: &AbsoluteError, findings: &[Finding], seconds: f64) -> String {

@@ -33,7 +33,7 @@ pub struct Train {
 #[derive(Args, Clone)]
 pub struct TrainOptions {
     /// What computes the gradients.
-    #[arg(long, value_enum, default_value = "flex")]
+    #[arg(long, value_enum, default_value = "fused")]
     pub backend: BackendName,
     /// Epochs, instead of the configured number.
     #[arg(long, value_name = "N")]
@@ -48,6 +48,8 @@ pub struct TrainOptions {
 
 #[derive(ValueEnum, Clone, Copy)]
 pub enum BackendName {
+    /// Our own kernel, the fastest by far.
+    Fused,
     /// burn's flex, the successor of ndarray and the faster one.
     Flex,
     /// burn-ndarray.
@@ -57,6 +59,7 @@ pub enum BackendName {
 impl From<BackendName> for Backend {
     fn from(name: BackendName) -> Self {
         match name {
+            BackendName::Fused => Self::Fused,
             BackendName::Flex => Self::Flex,
             BackendName::Ndarray => Self::Ndarray,
         }
@@ -192,7 +195,7 @@ pub fn fit(config: &Config, dataset: &Dataset, options: &TrainOptions, checkpoin
         resume: options.resume,
         provenance,
     };
-    let progress = ui.progress("train", config.train.epochs);
+    let progress = ui.progress("train", config.train.epochs * config.train.seeds);
     let start = Instant::now();
     let mut samples = 0;
     let outcome = interrupt::gracefully(|| {

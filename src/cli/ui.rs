@@ -3,8 +3,8 @@
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
-use std::cell::Cell;
 use std::io::{IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How to talk to the user.
@@ -36,7 +36,7 @@ impl Ui {
         let style = ProgressStyle::with_template("{prefix:<10} [{bar:32}] {pos}/{len} {msg} (ETA {eta})").expect("a valid template");
         bar.set_style(style.progress_chars("=> "));
         bar.set_prefix(name);
-        Progress { bar, name, lines: !self.quiet && !terminal, last_line: Cell::new(Instant::now()) }
+        Progress { bar, name, lines: !self.quiet && !terminal, last_line: Mutex::new(Instant::now()) }
     }
 
     /// Prints the one JSON object of a command.
@@ -64,7 +64,7 @@ pub struct Progress {
     bar: ProgressBar,
     name: &'static str,
     lines: bool,
-    last_line: Cell<Instant>,
+    last_line: Mutex<Instant>,
 }
 
 impl Progress {
@@ -72,9 +72,10 @@ impl Progress {
     pub fn set(&self, position: u64, message: impl Into<String>) {
         self.bar.set_position(position);
         let message = message.into();
-        if self.lines && self.last_line.get().elapsed() > Duration::from_secs(10) {
+        let mut last_line = self.last_line.lock().unwrap_or_else(PoisonError::into_inner);
+        if self.lines && last_line.elapsed() > Duration::from_secs(10) {
             eprintln!("{}: {position}/{} {message}", self.name, self.bar.length().unwrap_or(0));
-            self.last_line.set(Instant::now());
+            *last_line = Instant::now();
         }
         self.bar.set_message(message);
     }

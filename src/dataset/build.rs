@@ -2,15 +2,19 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, Rows};
-use crate::features::{Extractor, FeatureSet};
+use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Storage};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
+use rand::RngExt;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
 /// Keeps the random numbers of the split into training and validation pixels apart from all others.
 const SPLIT_PURPOSE: u64 = 0x1004;
+
+/// Keeps the random numbers that choose among a pixel's rows apart from all others.
+const CHOICE_PURPOSE: u64 = 0x1005;
 
 /// Most rows that a dataset may be configured to have.
 pub const MOST_PAIRS: u64 = 1 << 30;
@@ -25,6 +29,33 @@ pub struct DatasetConfig {
     pub training_pairs: u64,
     /// Least number of validation rows, of pixels of their own.
     pub validation_pairs: u64,
+    /// Most rows of one pixel, chosen at random among those that a network is asked about; all of them where 0.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub rows_per_pixel: u32,
+    /// Precision in which moments are added up, where the feature set leaves that open.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub storage: Storage,
+    /// How much each row counts in the loss.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub weights: Weighting,
+    /// Share of the training rows that fresh pixels replace after every epoch; a fixed dataset where 0.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub refresh: f64,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// How much a row counts in the loss.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Weighting {
+    /// All alike.
+    #[default]
+    Uniform,
+    /// By what an error of its T does to the pixel's colour: alpha², times the rows that it stands for where only some of a pixel's were chosen.
+    Image,
 }
 
 /// Why a dataset could not be built.
@@ -38,6 +69,9 @@ pub enum DatasetError {
         /// Its value.
         value: u64,
     },
+    /// The share of rows that are replaced is none.
+    #[error("dataset.refresh = {0}: must be from 0 to 1")]
+    Refresh(f64),
     /// The distribution is invalid.
     #[error(transparent)]
     Synth(#[from] SynthError),
@@ -76,19 +110,121 @@ impl DatasetConfig {
                 return Err(DatasetError::Size { field, value });
             }
         }
+        if !(0.0..=1.0).contains(&self.refresh) {
+            return Err(DatasetError::Refresh(self.refresh));
+        }
         Ok(())
     }
 }
 
-/// Features of every fragment of a list and the exact answers that the feature set is trained on.
+/// Features of a list's fragments and the exact answers that the feature set is trained on; fragments that need no network have no row.
 ///
 /// # Errors
 /// [`DepthError`] where a fragment's depth does not fit the feature set.
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
-    let features = extractor.list(list, 0..list.pixels())?;
-    let targets = extractor.set().target().of_list(list).into_iter().map(|t| t as f32).collect();
-    let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len())).collect();
-    Ok(Rows { feature_set: extractor.set(), features, targets, pixels })
+    let Look { known, features } = extractor.list(list, 0..list.pixels())?;
+    let targets = extractor.set().target().of_list(list);
+    let asked = |values: &mut dyn Iterator<Item = f32>| known.iter().zip(values).filter(|(k, _)| k.is_nan()).map(|(_, v)| v).collect();
+    let targets = asked(&mut targets.into_iter().map(|t| t as f32));
+    let all_pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
+    let pixels = known.iter().zip(all_pixels).filter(|(k, _)| k.is_nan()).map(|(_, p)| p).collect();
+    Ok(Rows { feature_set: extractor.set(), features, targets, weights: Vec::new(), pixels })
+}
+
+/// Rows from random pixels, pixel after pixel for as long as one asks.
+#[derive(Debug, Clone)]
+pub struct RowStream {
+    source: Synth,
+    purpose: Purpose,
+    seed: u64,
+    config: DatasetConfig,
+    extractor: Extractor,
+    /// The next pixel.
+    next: u64,
+}
+
+impl RowStream {
+    /// A stream from pixel 0 on. Moment depth is that of the configured camera: its planes are the extremes of the scene.
+    ///
+    /// # Errors
+    /// [`DatasetError`] names the field that is wrong.
+    pub fn new(seed: u64, synth: &SynthConfig, config: &DatasetConfig, purpose: Purpose) -> Result<Self, DatasetError> {
+        config.validate()?;
+        let source = Synth::new(synth.clone(), seed)?;
+        let extractor = Extractor::new(config.features, Some(synth.camera), Some((synth.camera.near(), synth.camera.far())))?;
+        Ok(Self { source, purpose, seed, config: config.clone(), extractor: extractor.with_storage(config.storage), next: 0 })
+    }
+
+    /// Goes on from a given pixel.
+    pub fn skip_to(&mut self, pixel: u64) {
+        self.next = pixel;
+    }
+
+    /// The next pixel.
+    pub fn position(&self) -> u64 {
+        self.next
+    }
+
+    /// At least `pairs` rows of whole pixels, the pixel that reaches the number being the last. `progress` is told how many there are so far.
+    ///
+    /// # Errors
+    /// [`DatasetError::Depth`] where a fragment's depth does not fit the feature set.
+    pub fn take(&mut self, pairs: usize, progress: &dyn Fn(u64)) -> Result<Rows, DatasetError> {
+        const CHUNK: usize = 8192;
+        let width = self.config.features.width();
+        let mut out = Rows { feature_set: self.config.features, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
+        let first = self.next;
+        while out.len() < pairs {
+            let list = self.source.pixels(self.purpose, self.next, CHUNK);
+            let rows = rows(&list, &self.extractor)?;
+            let alpha = (self.config.weights == Weighting::Image).then(|| self.asked_alpha(&list)).transpose()?;
+            let mut at = 0;
+            for of_pixel in rows.pixels.chunk_by(|a, b| a == b) {
+                let n = of_pixel.len();
+                let pixel = self.next + u64::from(of_pixel[0]);
+                let chosen = self.choose(pixel, n);
+                for &i in &chosen {
+                    let row = at + i as usize;
+                    out.features.extend_from_slice(&rows.features[row * width..][..width]);
+                    out.targets.push(rows.targets[row]);
+                    out.pixels.push((pixel - first) as u32);
+                    if let Some(alpha) = &alpha {
+                        out.weights.push(alpha[row] * alpha[row] * n as f32 / chosen.len() as f32);
+                    }
+                }
+                at += n;
+                if out.len() >= pairs {
+                    self.next = pixel + 1;
+                    break;
+                }
+            }
+            if out.len() < pairs {
+                self.next += CHUNK as u64;
+            }
+            progress(out.len() as u64);
+        }
+        Ok(out)
+    }
+
+    /// Which of a pixel's n rows are taken.
+    fn choose(&self, pixel: u64, n: usize) -> Vec<u32> {
+        let most = self.config.rows_per_pixel as usize;
+        let mut all: Vec<u32> = (0..n as u32).collect();
+        if most > 0 && n > most {
+            let mut rng = stream(self.seed, CHOICE_PURPOSE, pixel);
+            for i in 0..most {
+                all.swap(i, rng.random_range(i..n));
+            }
+            all.truncate(most);
+        }
+        all
+    }
+
+    /// Opacities of the fragments that the network is asked about.
+    fn asked_alpha(&self, list: &FragmentList) -> Result<Vec<f32>, DepthError> {
+        let known = self.extractor.list(list, 0..list.pixels())?.known;
+        Ok(known.iter().zip(list.alpha()).filter(|(k, _)| k.is_nan()).map(|(_, &a)| a).collect())
+    }
 }
 
 /// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how many there are so far.
@@ -125,6 +261,22 @@ pub fn build(
 ) -> Result<(Dataset, [FragmentList; 2]), DatasetError> {
     config.validate()?;
     let source = Synth::new(synth.clone(), seed)?;
+    if config.features.moment_depth() == MomentDepthKind::Log {
+        let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, FragmentList), DatasetError> {
+            let mut stream = RowStream::new(seed, synth, config, purpose)?;
+            let rows = stream.take(pairs as usize, &|n| progress(before + n))?;
+            Ok((rows, source.pixels(purpose, 0, stream.position() as usize)))
+        };
+        let (training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
+        let (mut validation, validation_pixels) = part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
+        // What is chosen by is the plain mean over rows, whatever training weighs.
+        validation.weights.clear();
+        let mut training = training;
+        normalise(&mut training.weights);
+        let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
+        let dataset = dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels);
+        return Ok((dataset, [training_pixels, validation_pixels]));
+    }
     let training_pixels = pixels_holding(&source, Purpose::Training, config.training_pairs, progress);
     let made = training_pixels.len() as u64;
     let validation_pixels = pixels_holding(&source, Purpose::Validation, config.validation_pairs, &|n| progress(made + n));
@@ -134,6 +286,14 @@ pub fn build(
     let validation = rows(&validation_pixels, &extractor)?;
     let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
     Ok((dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels), [training_pixels, validation_pixels]))
+}
+
+/// Scales weights to a mean of 1.
+pub fn normalise(weights: &mut [f32]) {
+    let mean = weights.iter().map(|&w| f64::from(w)).sum::<f64>() / weights.len().max(1) as f64;
+    if mean > 0.0 {
+        weights.iter_mut().for_each(|w| *w = (f64::from(*w) / mean) as f32);
+    }
 }
 
 /// Builds a dataset of pixels drawn at random, without repetition, from given lists; `lists` are their names, which the manifest keeps, and they.
@@ -172,10 +332,10 @@ pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], 
     let mut extractors = Vec::with_capacity(lists.len());
     for &(name, list) in lists {
         let in_list = |source| DatasetError::ListDepth { name: name.to_owned(), source };
-        extractors.push(Extractor::for_list(config.features, list, None, None).map_err(in_list)?);
+        extractors.push(Extractor::for_list(config.features, list, None, None).map_err(in_list)?.with_storage(config.storage));
     }
     let rows_of = |chosen: &[(u32, u32)]| {
-        let mut all = Rows { feature_set: config.features, features: Vec::new(), targets: Vec::new(), pixels: Vec::new() };
+        let mut all = Rows { feature_set: config.features, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
         let mut before = 0;
         for of_one in chosen.chunk_by(|a, b| a.0 == b.0) {
             let index = of_one[0].0 as usize;
@@ -242,8 +402,20 @@ pub(crate) mod tests {
     use super::*;
     use crate::pixel::abuffer;
 
+    pub(crate) fn sizes() -> DatasetConfig {
+        DatasetConfig {
+            features: FeatureSet::Paper,
+            training_pairs: 1,
+            validation_pairs: 1,
+            rows_per_pixel: 0,
+            storage: Storage::F32,
+            weights: Weighting::Uniform,
+            refresh: 0.0,
+        }
+    }
+
     pub(crate) fn small() -> (Dataset, [FragmentList; 2]) {
-        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 3000, validation_pairs: 500 };
+        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 3000, validation_pairs: 500, ..sizes() };
         build("small", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap()
     }
 
@@ -279,7 +451,7 @@ pub(crate) mod tests {
     }
 
     fn deep() -> DatasetConfig {
-        DatasetConfig { features: FeatureSet::DeepWeightedBlended, training_pairs: 1500, validation_pairs: 500 }
+        DatasetConfig { features: FeatureSet::DeepWeightedBlended, training_pairs: 1500, validation_pairs: 500, ..sizes() }
     }
 
     #[test]
@@ -343,7 +515,7 @@ pub(crate) mod tests {
 
     #[test]
     fn sizes_are_validated() {
-        let mut config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 0, validation_pairs: 1 };
+        let mut config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 0, validation_pairs: 1, ..sizes() };
         let error = build("x", 1, &SynthConfig::paper(), &config, &|_| {}).unwrap_err();
         assert_eq!(error.to_string(), "dataset.training_pairs = 0: must be from 1 to 1073741824");
         config.training_pairs = u64::MAX;

@@ -1,6 +1,7 @@
 //! A dataset on disk: `.npy` files that NumPy opens without our code, and a manifest.
 //!
-//! `training_features.npy` f32 `[N, W]`, `training_targets.npy` f32 `[N]`, `training_pixels.npy` u32 `[N]`, the same for `validation_`, and
+//! `training_features.npy` f32 `[N, W]`, `training_targets.npy` f32 `[N]`, `training_pixels.npy` u32 `[N]`, `training_weights.npy` f32 `[N]` where rows do not
+//! count alike, the same for `validation_`, and
 //! `manifest.json`, which is written last: a folder with a manifest holds a whole dataset.
 
 use super::build::DatasetConfig;
@@ -86,8 +87,8 @@ pub struct Part {
     pub pixels: usize,
     /// Number of rows, N.
     pub pairs: usize,
-    /// Its arrays: features, targets, pixels.
-    pub files: [ArrayFile; 3],
+    /// Its arrays: features, targets, pixels, and weights where rows do not count alike.
+    pub files: Vec<ArrayFile>,
 }
 
 /// An array and its hash.
@@ -130,7 +131,7 @@ pub enum DatasetFileError {
 impl Part {
     /// Describes rows as [`write()`] writes them.
     pub fn of(part: &str, rows: &Rows, pixels: usize) -> Self {
-        let files = encoded(part, rows).map(|(file, bytes)| ArrayFile { file, sha256: sha256_hex([bytes.as_slice()]) });
+        let files = encoded(part, rows).into_iter().map(|(file, bytes)| ArrayFile { file, sha256: sha256_hex([bytes.as_slice()]) }).collect();
         Self { pixels, pairs: rows.len(), files }
     }
 }
@@ -142,13 +143,17 @@ impl Manifest {
     }
 }
 
-fn encoded(part: &str, rows: &Rows) -> [(String, Vec<u8>); 3] {
+fn encoded(part: &str, rows: &Rows) -> Vec<(String, Vec<u8>)> {
     let features = ArrayView2::from_shape((rows.len(), rows.feature_set.width()), &rows.features).expect("W features a row");
-    [
+    let mut files = vec![
         (format!("{part}_features.npy"), encode(features)),
         (format!("{part}_targets.npy"), encode(ArrayView1::from(&rows.targets))),
         (format!("{part}_pixels.npy"), encode(ArrayView1::from(&rows.pixels))),
-    ]
+    ];
+    if !rows.weights.is_empty() {
+        files.push((format!("{part}_weights.npy"), encode(ArrayView1::from(&rows.weights))));
+    }
+    files
 }
 
 /// Refuses early when `folder` already holds a dataset that may not be replaced.
@@ -212,7 +217,11 @@ pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
 }
 
 fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows, DatasetFileError> {
-    let paths = part.files.each_ref().map(|f| folder.join(Path::new(&f.file).file_name().unwrap_or_default()));
+    if !(3..=4).contains(&part.files.len()) {
+        let reason = format!("{} arrays of a part; features, targets, pixels and at most weights are expected", part.files.len());
+        return Err(DatasetFileError::Manifest { path: folder.join(MANIFEST), reason });
+    }
+    let paths: Vec<PathBuf> = part.files.iter().map(|f| folder.join(Path::new(&f.file).file_name().unwrap_or_default())).collect();
     for (path, file) in paths.iter().zip(&part.files) {
         if sha256_hex([read(path)?.as_slice()]) != file.sha256 {
             return Err(DatasetFileError::Content {
@@ -224,6 +233,13 @@ fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows
     let features = read_npy::<f32>(&paths[0])?;
     let targets = read_npy::<f32>(&paths[1])?;
     let pixels = read_npy::<u32>(&paths[2])?;
+    let weights = paths.get(3).map(|path| read_npy::<f32>(path)).transpose()?;
+    if let (Some(weights), Some(path)) = (&weights, paths.get(3)) {
+        if weights.shape() != [part.pairs] || !weights.iter().all(|w| w.is_finite() && *w >= 0.0) {
+            let reason = format!("expected {} finite weights, none negative", part.pairs);
+            return Err(DatasetFileError::Content { path: path.clone(), reason });
+        }
+    }
     let shapes = [
         (&paths[0], features.shape(), vec![part.pairs, feature_set.width()]),
         (&paths[1], targets.shape(), vec![part.pairs]),
@@ -243,6 +259,7 @@ fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows
         feature_set,
         features: features.iter().copied().collect(),
         targets: targets.iter().copied().collect(),
+        weights: weights.iter().flatten().copied().collect(),
         pixels: pixels.iter().copied().collect(),
     })
 }

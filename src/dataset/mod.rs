@@ -1,8 +1,10 @@
 //! Datasets: pixels turned into (features, target) rows, and their files.
 
+pub mod blocks;
 pub mod build;
 pub mod file;
 
+pub use blocks::{Batch, Blocks};
 pub use build::{DatasetConfig, DatasetError, build, build_from_lists};
 
 use crate::features::FeatureSet;
@@ -16,6 +18,8 @@ pub struct Rows {
     pub features: Vec<f32>,
     /// The exact answers, `[N]`; of what, [`FeatureSet::target`] says.
     pub targets: Vec<f32>,
+    /// How much each row counts in the loss, `[N]`; empty where all count 1.
+    pub weights: Vec<f32>,
     /// Which pixel each row is of, `[N]`, counted from 0 within these rows.
     pub pixels: Vec<u32>,
 }

@@ -5,6 +5,7 @@
 //! shader compilers copy the array at each access.
 
 pub mod onnx;
+mod recentred;
 pub mod shader;
 
 use crate::model::{Mlp, file};

@@ -2,6 +2,7 @@
 //!
 //! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that such a graph needs, declared by hand.
 
+use crate::features::Answer;
 use crate::model::Mlp;
 use prost::Message;
 
@@ -211,7 +212,11 @@ pub fn model(mlp: &Mlp) -> ModelProto {
             name: format!("gemm{}", index + 1),
             op_type: "Gemm".to_owned(),
         });
-        let (op, to) = if index == last { ("Sigmoid", OUTPUT.to_owned()) } else { ("Relu", format!("h{}", index + 1)) };
+        let (op, to) = match (index == last, mlp.feature_set().answer()) {
+            (false, _) => ("Relu", format!("h{}", index + 1)),
+            (true, Answer::Sigmoid) => ("Sigmoid", OUTPUT.to_owned()),
+            (true, Answer::Fraction { .. }) => ("Sigmoid", "share".to_owned()),
+        };
         node.push(NodeProto {
             input: vec![sum],
             output: vec![to.clone()],
@@ -221,6 +226,28 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         from = to;
     }
     let set = mlp.feature_set();
+    if let Answer::Fraction { column, offset } = set.answer() {
+        // exp(−relu(exp(features[:, column]) − offset) · share); the column is picked by a product with a column of the unit matrix.
+        let unit: Vec<f32> = (0..set.width()).map(|i| if i == column { 1.0 } else { 0.0 }).collect();
+        initializer.push(tensor("column".to_owned(), vec![set.width() as i64, 1], &unit));
+        initializer.push(tensor("offset".to_owned(), vec![1], &[offset]));
+        for (op, input, output) in [
+            ("MatMul", vec![INPUT, "column"], "log_absorbance"),
+            ("Exp", vec!["log_absorbance"], "shifted_absorbance"),
+            ("Sub", vec!["shifted_absorbance", "offset"], "signed_absorbance"),
+            ("Relu", vec!["signed_absorbance"], "absorbance"),
+            ("Mul", vec!["absorbance", "share"], "in_front"),
+            ("Neg", vec!["in_front"], "exponent"),
+            ("Exp", vec!["exponent"], OUTPUT),
+        ] {
+            node.push(NodeProto {
+                input: input.into_iter().map(str::to_owned).collect(),
+                output: vec![output.to_owned()],
+                name: output.to_owned(),
+                op_type: op.to_owned(),
+            });
+        }
+    }
     let p = &mlp.provenance;
     let metadata = [
         ("nmt.name", Some(mlp.name().to_owned())),

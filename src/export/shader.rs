@@ -1,6 +1,7 @@
 //! Shader source: WGSL and GLSL, unrolled scalars or packed vectors, through one emitter.
 
-use crate::features::FeatureSet;
+use super::recentred;
+use crate::features::{Answer, FeatureSet, MomentDepthKind};
 use crate::model::{Dense, Mlp};
 use std::fmt::Write;
 
@@ -26,17 +27,19 @@ pub enum Form {
 pub const ENTRY: &str = "nmt_transmittance";
 
 impl Language {
-    fn feature_source(self, set: FeatureSet) -> &'static str {
-        match (self, set) {
+    fn feature_source(self, set: FeatureSet) -> String {
+        let text = match (self, set) {
             (Self::Wgsl, FeatureSet::Paper) => include_str!("../features/paper.wgsl"),
             (Self::Glsl, FeatureSet::Paper) => include_str!("../features/paper.glsl"),
             (Self::Wgsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.wgsl"),
             (Self::Glsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.glsl"),
-        }
+            (_, set @ (FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)) => return recentred::source(self, set),
+        };
+        text.to_owned()
     }
 
     /// A literal that parses back to the same bits: the shortest decimal that names the f32.
-    fn literal(self, x: f32) -> String {
+    pub(super) fn literal(self, x: f32) -> String {
         match self {
             Self::Wgsl => format!("{x:?}f"),
             Self::Glsl => format!("{x:?}"),
@@ -107,11 +110,14 @@ impl Language {
 /// A whole include file.
 pub fn source(mlp: &Mlp, language: Language, form: Form) -> String {
     let mut text = header(mlp, form);
-    text += language.feature_source(mlp.feature_set());
+    text += &language.feature_source(mlp.feature_set());
     text.push('\n');
     match form {
         Form::Plain => plain(mlp, language, &mut text),
         Form::Packed => packed(mlp, language, &mut text),
+    }
+    if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
+        text += &recentred::answer(language, mlp.feature_set());
     }
     text
 }
@@ -187,11 +193,21 @@ fn plain(mlp: &Mlp, language: Language, text: &mut String) {
             };
         }
     }
-    *text += SIGMOID;
+    *text += &ending(mlp, language);
 }
 
-/// 1/(1 + e^−x) without overflow; what [`crate::numeric::Real::sigmoid`] computes.
-const SIGMOID: &str = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n";
+/// From the logit to the answer, without overflow; what [`Mlp::forward`] does.
+fn ending(mlp: &Mlp, language: Language) -> String {
+    // 1/(1 + e^−x)
+    let sigmoid = "1.0 / (1.0 + exp(min(-logit, 80.0)))";
+    match mlp.feature_set().answer() {
+        Answer::Sigmoid => format!("    return {sigmoid};\n}}\n"),
+        Answer::Fraction { column, offset } => {
+            let absorbance = language.bind("float", "absorbance", &format!("max(exp(f[{column}]) - {}, 0.0)", language.literal(offset)));
+            format!("{absorbance}    return exp(-min(absorbance * ({sigmoid}), 80.0));\n}}\n")
+        }
+    }
+}
 
 /// Number of vec4 that hold n values.
 fn groups(n: usize) -> usize {
@@ -276,7 +292,7 @@ fn packed(mlp: &Mlp, language: Language, text: &mut String) {
             *text += &language.bind(language.vec4(), &format!("h{}_{g}", index + 1), &value);
         }
     }
-    *text += SIGMOID;
+    *text += &ending(mlp, language);
 }
 
 #[cfg(test)]

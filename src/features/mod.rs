@@ -2,9 +2,12 @@
 
 pub mod deep_weighted_blended;
 pub mod paper;
+pub mod recentred;
 
-use crate::pixel::{CameraPlanes, DepthError, FragmentList, Pixel, ViewZ, abuffer};
+use crate::numeric::quantise::round_f16;
+use crate::pixel::{CameraPlanes, DepthError, FragmentList, LogWarp, Pixel, ViewZ, absorbance, abuffer};
 use deep_weighted_blended::LinearRange;
+use recentred::{Known, PixelSums, Seen};
 use serde::{Deserialize, Serialize};
 
 /// A feature set: which numbers, in which order, of which moments.
@@ -15,6 +18,14 @@ pub enum FeatureSet {
     Paper,
     /// DWB22's three features; see [`deep_weighted_blended`].
     DeepWeightedBlended,
+    /// What the other fragments look like from the pixel's own depth range, four moments; see [`recentred`].
+    Recentred,
+    /// [`Self::Recentred`] with six moments.
+    #[serde(rename = "recentred-6")]
+    Recentred6,
+    /// [`Self::Recentred`] with eight moments.
+    #[serde(rename = "recentred-8")]
+    Recentred8,
 }
 
 /// What a network's output number means.
@@ -25,6 +36,22 @@ pub enum OutputMeaning {
     Transmittance,
     /// The sigmoid is the front-to-back factor itself.
     FrontToBackFactor,
+    /// The sigmoid s is the share of the other fragments' absorbance in front, and T = exp(−b_0' s).
+    AbsorbanceShare,
+}
+
+/// How a network's logit becomes its answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Answer {
+    /// The sigmoid s.
+    Sigmoid,
+    /// exp(−b s), b = e^f − offset, at least 0, f the feature of a column.
+    Fraction {
+        /// The column.
+        column: usize,
+        /// What was added before the logarithm.
+        offset: f32,
+    },
 }
 
 /// What a dataset's rows are answered with.
@@ -60,19 +87,24 @@ impl Target {
 pub enum MomentDepthKind {
     /// z = 2w − 1, w the window depth.
     Window,
+    /// z = 2 ln(v/v0)/ln(v1/v0) − 1, v the view depth, v0 and v1 its extremes in the scene.
+    Log,
     /// It takes no moments.
     None,
 }
 
 impl FeatureSet {
     /// Every feature set.
-    pub const ALL: [Self; 2] = [Self::Paper, Self::DeepWeightedBlended];
+    pub const ALL: [Self; 5] = [Self::Paper, Self::DeepWeightedBlended, Self::Recentred, Self::Recentred6, Self::Recentred8];
 
     /// Its name in configs, model files and file headers.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
             Self::DeepWeightedBlended => "deep-weighted-blended",
+            Self::Recentred => "recentred",
+            Self::Recentred6 => "recentred-6",
+            Self::Recentred8 => "recentred-8",
         }
     }
 
@@ -81,6 +113,7 @@ impl FeatureSet {
         match self {
             Self::Paper => &paper::COLUMNS,
             Self::DeepWeightedBlended => &deep_weighted_blended::COLUMNS,
+            Self::Recentred | Self::Recentred6 | Self::Recentred8 => recentred::columns(self.moments()),
         }
     }
 
@@ -89,6 +122,7 @@ impl FeatureSet {
         match self {
             Self::Paper => &paper::DESCRIPTION,
             Self::DeepWeightedBlended => &deep_weighted_blended::DESCRIPTION,
+            Self::Recentred | Self::Recentred6 | Self::Recentred8 => &recentred::DESCRIPTION,
         }
     }
 
@@ -102,13 +136,32 @@ impl FeatureSet {
         match self {
             Self::Paper => OutputMeaning::Transmittance,
             Self::DeepWeightedBlended => OutputMeaning::FrontToBackFactor,
+            Self::Recentred | Self::Recentred6 | Self::Recentred8 => OutputMeaning::AbsorbanceShare,
+        }
+    }
+
+    /// How a logit becomes the answer: what [`Self::output`] means, as arithmetic.
+    pub fn answer(self) -> Answer {
+        match self.output() {
+            OutputMeaning::Transmittance | OutputMeaning::FrontToBackFactor => Answer::Sigmoid,
+            OutputMeaning::AbsorbanceShare => Answer::Fraction { column: recentred::ABSORBANCE_COLUMN, offset: recentred::ABSORBANCE_OFFSET },
+        }
+    }
+
+    /// Moments that pass 1 adds up besides b_0.
+    pub fn moments(self) -> usize {
+        match self {
+            Self::DeepWeightedBlended => 0,
+            Self::Paper | Self::Recentred => 4,
+            Self::Recentred6 => 6,
+            Self::Recentred8 => 8,
         }
     }
 
     /// What its rows of a dataset are answered with.
     pub fn target(self) -> Target {
         match self {
-            Self::Paper => Target::Transmittance,
+            Self::Paper | Self::Recentred | Self::Recentred6 | Self::Recentred8 => Target::Transmittance,
             Self::DeepWeightedBlended => Target::FrontToBackFactor,
         }
     }
@@ -118,18 +171,50 @@ impl FeatureSet {
         match self {
             Self::Paper => MomentDepthKind::Window,
             Self::DeepWeightedBlended => MomentDepthKind::None,
+            Self::Recentred | Self::Recentred6 | Self::Recentred8 => MomentDepthKind::Log,
         }
     }
 }
 
 /// A feature set together with what it must know of the camera and the scene: turns pixels into rows of features.
 #[derive(Debug, Clone, Copy)]
-pub struct Extractor(Kind);
+pub struct Extractor {
+    set: FeatureSet,
+    kind: Kind,
+    storage: Storage,
+}
 
 #[derive(Debug, Clone, Copy)]
 enum Kind {
     Paper(CameraPlanes),
     DeepWeightedBlended(LinearRange),
+    Recentred(LogWarp),
+}
+
+/// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Storage {
+    /// RGBA32F targets: every sum is rounded to f32.
+    #[default]
+    F32,
+    /// RGBA16F targets: every sum is rounded to f16.
+    F16,
+}
+
+impl Storage {
+    fn rounds(self) -> bool {
+        self == Self::F16
+    }
+}
+
+/// What a feature set says of some fragments.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Look {
+    /// Transmittance of every fragment where it is known without a network, NaN where the network is asked; `[F']`.
+    pub known: Vec<f32>,
+    /// Features of the fragments that the network is asked about, in the order of the fragments; `[Q, W]`, row by row.
+    pub features: Vec<f32>,
 }
 
 impl Extractor {
@@ -139,13 +224,15 @@ impl Extractor {
     /// [`DepthError::NoPlanes`] where the set needs window depth and no planes are given; [`DepthError::NoRange`] where it needs depth relative to
     /// the scene and no range is given; [`DepthError::BadRange`] where that range is none.
     pub fn new(set: FeatureSet, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<Self, DepthError> {
-        match set {
-            FeatureSet::Paper => Ok(Self(Kind::Paper(planes.ok_or(DepthError::NoPlanes)?))),
-            FeatureSet::DeepWeightedBlended => {
-                let (v0, v1) = depth_range.ok_or(DepthError::NoRange)?;
-                Ok(Self(Kind::DeepWeightedBlended(LinearRange::new(ViewZ(v0.into()), ViewZ(v1.into()))?)))
+        let range = || depth_range.ok_or(DepthError::NoRange).map(|(v0, v1)| (ViewZ(v0.into()), ViewZ(v1.into())));
+        let kind = match set {
+            FeatureSet::Paper => Kind::Paper(planes.ok_or(DepthError::NoPlanes)?),
+            FeatureSet::DeepWeightedBlended => range().and_then(|(v0, v1)| LinearRange::new(v0, v1)).map(Kind::DeepWeightedBlended)?,
+            FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => {
+                range().and_then(|(v0, v1)| LogWarp::new(v0, v1)).map(Kind::Recentred)?
             }
-        }
+        };
+        Ok(Self { set, kind, storage: Storage::F32 })
     }
 
     /// An extractor for the pixels of a list; planes and range that are not given are the list's own.
@@ -158,18 +245,20 @@ impl Extractor {
         Self::new(set, planes.or(list.planes()), Some(depth_range))
     }
 
-    /// The feature set.
-    pub fn set(&self) -> FeatureSet {
-        match self.0 {
-            Kind::Paper(_) => FeatureSet::Paper,
-            Kind::DeepWeightedBlended(_) => FeatureSet::DeepWeightedBlended,
-        }
+    /// The same with moments in another precision; `paper`'s and `deep-weighted-blended`'s sums stay in f64, as they were published.
+    pub fn with_storage(self, storage: Storage) -> Self {
+        Self { storage, ..self }
     }
 
-    /// Features of every fragment of a pixel, in the order of its fragments.
+    /// The feature set.
+    pub fn set(&self) -> FeatureSet {
+        self.set
+    }
+
+    /// Features of every fragment of a pixel, in the order of its fragments, and the transmittance where the set knows it.
     ///
     /// # Shapes
-    /// `out: [n, W]`, row by row.
+    /// `out: [n, W + 1]`, row by row: the features, then the known transmittance or NaN; features beside a known transmittance are 0.
     ///
     /// # Errors
     /// [`DepthError::OutsidePlanes`] where a fragment lies outside the camera's planes.
@@ -177,29 +266,92 @@ impl Extractor {
     /// # Panics
     /// If `out` has another length.
     pub fn pixel(&self, pixel: Pixel<'_>, out: &mut [f32]) -> Result<(), DepthError> {
-        match self.0 {
-            Kind::Paper(planes) => paper::extract(pixel, planes, out),
-            Kind::DeepWeightedBlended(range) => {
-                deep_weighted_blended::extract(pixel, range, out);
+        match self.kind {
+            Kind::Recentred(warp) => {
+                match self.set.moments() {
+                    4 => self.recentred::<4>(pixel, warp, out),
+                    6 => self.recentred::<6>(pixel, warp, out),
+                    _ => self.recentred::<8>(pixel, warp, out),
+                }
                 Ok(())
             }
+            Kind::Paper(planes) => unknown(self.set.width(), out, |rows| paper::extract(pixel, planes, rows)),
+            Kind::DeepWeightedBlended(range) => unknown(self.set.width(), out, |rows| {
+                deep_weighted_blended::extract(pixel, range, rows);
+                Ok(())
+            }),
         }
     }
 
-    /// Features of every fragment of pixels `range` of a list, in the order of the list, on all cores.
-    ///
-    /// # Shapes
-    /// The result is `[F', W]`, row by row, F' = fragments of those pixels.
+    fn recentred<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, out: &mut [f32]) {
+        let width = self.set.width();
+        assert_eq!(out.len(), pixel.len() * (width + 1), "one row of {} numbers a fragment", width + 1);
+        let seen = |i: usize| Seen {
+            view_z: pixel.view_z[i],
+            z: warp.moment(ViewZ(pixel.view_z[i].into())).0 as f32,
+            absorbance: absorbance(pixel.alpha[i]) as f32,
+        };
+        let mut sums = PixelSums::<f32, K>::default();
+        for i in 0..pixel.len() {
+            // What is seen is kept in the fragment's row until pass 2 overwrites it.
+            let seen = seen(i);
+            (out[i * (width + 1)], out[i * (width + 1) + 1]) = (seen.z, seen.absorbance);
+            sums.add(seen);
+            if self.storage.rounds() {
+                let round = |x: f32| round_f16(x.into()) as f32;
+                sums.b0 = round(sums.b0);
+                sums.b = sums.b.map(round);
+            }
+        }
+        let ends = [sums.nearest, sums.farthest].map(|v| warp.moment(ViewZ(v.into())).0 as f32);
+        for (i, row) in out.chunks_exact_mut(width + 1).enumerate() {
+            let seen = Seen { view_z: pixel.view_z[i], z: row[0], absorbance: row[1] };
+            row[width] = match sums.look(seen, ends) {
+                Known::Transmittance(t) => {
+                    row[..width].fill(0.0);
+                    t
+                }
+                Known::Features(first, measure) => {
+                    row[..first.len()].copy_from_slice(&first);
+                    row[first.len()..width].copy_from_slice(&measure);
+                    f32::NAN
+                }
+            };
+        }
+    }
+
+    /// What the set says of every fragment of pixels `range` of a list, in the order of the list, on all cores.
     ///
     /// # Errors
     /// As [`Self::pixel`].
-    pub fn list(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<Vec<f32>, DepthError> {
+    pub fn list(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<Look, DepthError> {
         let width = self.set().width();
-        let fragments = list.offsets()[range.end] - list.offsets()[range.start];
-        let mut rows = vec![0.0; fragments as usize * width];
-        list.par_pixels(range, &mut rows, width, |_, pixel, out| self.pixel(pixel, out))?;
-        Ok(rows)
+        let fragments = (list.offsets()[range.end] - list.offsets()[range.start]) as usize;
+        let mut rows = vec![0.0; fragments * (width + 1)];
+        list.par_pixels(range, &mut rows, width + 1, |_, pixel, out| self.pixel(pixel, out))?;
+        let known: Vec<f32> = rows.chunks_exact(width + 1).map(|row| row[width]).collect();
+        // Rows of the asked close ranks in place.
+        let mut kept = 0;
+        for (i, known) in known.iter().enumerate() {
+            if known.is_nan() {
+                rows.copy_within(i * (width + 1)..i * (width + 1) + width, kept);
+                kept += width;
+            }
+        }
+        rows.truncate(kept);
+        Ok(Look { known, features: rows })
     }
+}
+
+/// Rows of a set that knows nothing without a network, spread out to make room for the column that says so.
+fn unknown(width: usize, out: &mut [f32], extract: impl FnOnce(&mut [f32]) -> Result<(), DepthError>) -> Result<(), DepthError> {
+    let rows = out.len() / (width + 1);
+    extract(&mut out[..rows * width])?;
+    for i in (0..rows).rev() {
+        out.copy_within(i * width..(i + 1) * width, i * (width + 1));
+        out[i * (width + 1) + width] = f32::NAN;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -224,7 +376,7 @@ mod tests {
             let none = FragmentList::new(vec![0, 0], vec![], vec![], None).unwrap();
             let extractor = Extractor::for_list(set, &none, planes, None).unwrap();
             assert_eq!(extractor.set(), set);
-            assert!(extractor.list(&none, 0..1).unwrap().is_empty());
+            assert_eq!(extractor.list(&none, 0..1).unwrap(), Look::default());
         }
     }
 
@@ -233,8 +385,8 @@ mod tests {
     fn the_range_is_the_lists_unless_given() {
         let list = FragmentList::new(vec![0, 2, 3], vec![2.0, 3.0, 6.0], vec![0.5, 0.5, 1.0], None).unwrap();
         let depths = |range| {
-            let rows = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range).unwrap().list(&list, 0..2).unwrap();
-            rows.chunks_exact(3).map(|row| row[0]).collect::<Vec<_>>()
+            let look = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range).unwrap().list(&list, 0..2).unwrap();
+            look.features.chunks_exact(3).map(|row| row[0]).collect::<Vec<_>>()
         };
         assert_eq!(depths(None), [0.0, 0.25, 1.0]);
         assert_eq!(depths(Some((1.0, 9.0))), [0.125, 0.25, 0.625]);

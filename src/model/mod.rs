@@ -1,6 +1,7 @@
 //! The network: plain arrays, a reference forward pass in two precisions, and its file.
 
 pub mod file;
+pub mod kernel;
 pub mod mlp;
 
 pub use file::ModelError;

@@ -4,6 +4,7 @@
 pub mod complex;
 pub mod digest;
 pub mod file;
+pub mod lanes;
 pub mod npy;
 pub mod orthogonal;
 pub mod quantise;

@@ -2,7 +2,7 @@
 
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
-use crate::features::{Extractor, FeatureSet};
+use crate::features::{Extractor, FeatureSet, Look};
 use crate::model::{Mlp, file};
 use crate::pixel::FragmentList;
 use std::path::Path;
@@ -47,8 +47,9 @@ impl Neural {
         let mut first = 0;
         while first < list.pixels() {
             let end = offsets.partition_point(|&o| o < offsets[first] + RUN).clamp(first + 1, list.pixels());
-            let rows = extractor.list(list, first..end).map_err(|e| self.error(e))?;
-            out.extend(self.mlp.forward_batch::<f32>(&rows));
+            let Look { known, features } = extractor.list(list, first..end).map_err(|e| self.error(e))?;
+            let mut asked = self.mlp.predict(&features).into_iter();
+            out.extend(known.into_iter().map(|t| if t.is_nan() { asked.next().expect("one answer a question") } else { t }));
             first = end;
             progress(out.len() as u64);
         }
@@ -66,6 +67,8 @@ impl Method for Neural {
         match self.mlp.feature_set() {
             FeatureSet::Paper => 352,
             FeatureSet::DeepWeightedBlended => deep_weighted_blended::BITS_PER_PIXEL,
+            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are moments.
+            set => 128 + 32 + 16 + 64 + 32 * set.moments() as u32,
         }
     }
 

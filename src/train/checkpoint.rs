@@ -1,6 +1,6 @@
 //! Checkpoints: all that a later process needs to continue as if there had been no interruption.
 
-use super::{AdamMoments, Backend, TrainConfig};
+use super::{AdamMoments, Backend, Schedule, TrainConfig};
 use crate::numeric::file::{FileError, Replace, read, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -125,7 +125,10 @@ impl Checkpoint {
         parameters: usize,
     ) -> Result<(), CheckpointError> {
         let other = |what| Err(CheckpointError::Other { path: path.to_owned(), what });
-        if (TrainConfig { epochs: config.epochs, checkpoint_every: config.checkpoint_every, ..self.config.clone() }) != *config {
+        // More epochs are more of the same only where the step size does not depend on their number.
+        let may_grow = config.schedule == Schedule::Constant && config.seeds == 1;
+        let epochs = if may_grow { config.epochs } else { self.config.epochs };
+        if (TrainConfig { epochs, checkpoint_every: config.checkpoint_every, ..self.config.clone() }) != *config {
             return other("training configuration");
         }
         if self.seed != seed {
@@ -138,8 +141,8 @@ impl Checkpoint {
             return other("backend");
         }
         let done = self.history.len() as u64;
-        if done > config.epochs {
-            return Err(CheckpointError::Further { path: path.to_owned(), done, epochs: config.epochs });
+        if done > config.epochs * config.seeds {
+            return Err(CheckpointError::Further { path: path.to_owned(), done, epochs: config.epochs * config.seeds });
         }
         let moments = &self.moments;
         let lengths = [self.parameters.len(), self.best_parameters.len(), moments.first.len(), moments.second.len()];

@@ -1,11 +1,14 @@
-//! The training loop: epochs, shuffling, validation, the best weights, checkpoints. It knows no backend.
+//! The training loop: epochs, shuffling, fresh pixels, validation, the best weights, checkpoints. It knows no backend.
 
 use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses};
 use super::{AdamMoments, Backend, TrainConfig, TrainConfigError, initial};
-use crate::dataset::{Dataset, Rows};
+use crate::dataset::build::{RowStream, normalise};
+use crate::dataset::{Batch, Blocks, Dataset, DatasetError, Rows};
 use crate::model::{Mlp, Provenance, ShapeError};
 use crate::numeric::file::FileError;
+use crate::numeric::lanes::LANES;
 use crate::numeric::rng::stream;
+use crate::synth::Purpose;
 use rand::seq::SliceRandom;
 use std::path::{Path, PathBuf};
 
@@ -24,6 +27,12 @@ pub enum TrainError {
     /// The checkpoint could not be written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// Fresh pixels could not be drawn.
+    #[error(transparent)]
+    Dataset(#[from] DatasetError),
+    /// Fresh pixels are asked for, but there is no distribution to draw them from.
+    #[error("dataset.refresh needs random pixels, and this dataset was made from fragment lists; set it to 0")]
+    NoStream,
     /// Nothing to learn from, or to choose by.
     #[error("the dataset has no {0} rows")]
     NoRows(&'static str),
@@ -89,14 +98,29 @@ pub struct Job<'a> {
     pub provenance: Provenance,
 }
 
-/// Trains a network.
+/// Trains a network, or as many as the configuration says, and keeps the best.
 ///
 /// `observe` is called after every epoch; `stop` is asked before every step, and once it says true the checkpoint is written and training ends.
 /// A training that was interrupted and resumed takes the same steps as one that was not.
 ///
 /// # Errors
 /// [`TrainError`]. A checkpoint that was there stays.
-pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe: &mut dyn FnMut(&EpochReport)) -> Result<Outcome, TrainError> {
+pub fn train(
+    dataset: &Dataset,
+    job: &Job<'_>,
+    stop: &(dyn Fn() -> bool + Sync),
+    observe: &mut (dyn FnMut(&EpochReport) + Send),
+) -> Result<Outcome, TrainError> {
+    // On a thread of the pool, whose other threads then wait for work close by.
+    rayon::scope(|_| fit(dataset, job, stop, observe))
+}
+
+fn fit(
+    dataset: &Dataset,
+    job: &Job<'_>,
+    stop: &(dyn Fn() -> bool + Sync),
+    observe: &mut (dyn FnMut(&EpochReport) + Send),
+) -> Result<Outcome, TrainError> {
     job.config.validate()?;
     for (name, rows) in [("training", &dataset.training), ("validation", &dataset.validation)] {
         if rows.is_empty() {
@@ -104,12 +128,13 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
         }
     }
     let Job { config, seed, backend, .. } = *job;
-    let rows = &dataset.training;
-    let shapes = initial::shapes(rows.feature_set.width(), &config.hidden);
-    let network = |parameters: &[f32], provenance| Mlp::new(job.name, rows.feature_set, initial::layers(&shapes, parameters)?, provenance);
+    let set = dataset.training.feature_set;
+    let shapes = initial::shapes(set.width(), &config.hidden);
+    let network = |parameters: &[f32], provenance| Mlp::new(job.name, set, initial::layers(&shapes, parameters)?, provenance);
+    let optimiser = |parameters: &[f32]| backend.optimiser(set, &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
-    let mut optimiser = backend.optimiser(&shapes, &parameters, config);
+    let mut fitted = optimiser(&parameters);
     let mut done = Checkpoint {
         format: "nmt-checkpoint".to_owned(),
         version: CHECKPOINT_VERSION,
@@ -126,7 +151,7 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
     if job.resume {
         let earlier = Checkpoint::load(job.checkpoint)?;
         earlier.check(job.checkpoint, config, seed, &dataset.manifest.hash, backend, initial::count(&shapes))?;
-        optimiser.restore(&earlier.parameters, &earlier.moments);
+        fitted.restore(&earlier.parameters, &earlier.moments);
         done = Checkpoint { config: config.clone(), ..earlier };
     }
     let best_validation = |done: &Checkpoint| match done.best_epoch {
@@ -134,24 +159,30 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
         epoch => done.history[epoch as usize - 1].validation,
     };
 
-    let mut batch = Batch::default();
-    let mut order: Vec<u32> = Vec::new();
+    let mut feed = Feed::new(dataset, seed, done.history.len() as u64)?;
+    let per_step = config.batch / LANES;
+    let steps_of_epoch = feed.blocks.len().div_ceil(per_step) as u64;
     let mut samples = 0;
-    for epoch in done.history.len() as u64 + 1..=config.epochs {
-        order.clear();
-        order.extend(0..rows.len() as u32);
-        order.shuffle(&mut stream(seed, PURPOSE, epoch));
+    // Networks follow each other; epochs are counted through.
+    for epoch in done.history.len() as u64 + 1..=config.epochs * config.seeds {
+        let (index, of_network) = ((epoch - 1) / config.epochs, (epoch - 1) % config.epochs);
+        if of_network == 0 && epoch > 1 {
+            fitted = optimiser(&initial::glorot(&shapes, seed + index));
+        }
+        feed.next_epoch(epoch)?;
         let mut squared_error = 0.0;
-        for indices in order.chunks(config.batch) {
+        for (step, order) in feed.order.chunks(per_step).enumerate() {
             if stop() {
                 return interrupted(&done, job.checkpoint);
             }
-            batch.gather(rows, indices);
-            squared_error += optimiser.step(&batch.features, &batch.targets, config.learning_rate) * indices.len() as f64;
-            samples += indices.len() as u64;
+            let batch = Batch { blocks: &feed.blocks, order };
+            let rate = config.learning_rate_at(of_network * steps_of_epoch + step as u64 + 1, config.epochs * steps_of_epoch);
+            let rows = batch.rows();
+            squared_error += fitted.step(batch, rate) * rows as f64;
+            samples += rows as u64;
         }
-        let training = squared_error / rows.len() as f64;
-        let parameters = optimiser.parameters();
+        let training = squared_error / feed.blocks.rows() as f64;
+        let parameters = fitted.parameters();
         if !training.is_finite() || parameters.iter().any(|p| !p.is_finite()) {
             return Err(TrainError::Diverged { epoch });
         }
@@ -164,17 +195,17 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
             done.best_parameters.clone_from(&parameters);
         }
         done.parameters = parameters;
-        done.moments = optimiser.moments();
-        done.history.push(Losses { training, validation });
+        done.moments = fitted.moments();
         let losses = Losses { training, validation };
+        done.history.push(losses);
         observe(&EpochReport { epoch, losses, best_validation: best_validation(&done), samples });
-        if epoch % config.checkpoint_every == 0 && epoch < config.epochs {
+        if epoch % config.checkpoint_every == 0 && epoch < config.epochs * config.seeds {
             done.save(job.checkpoint)?;
         }
     }
     let best = done.history[done.best_epoch as usize - 1];
     let provenance = Provenance {
-        seed: Some(seed),
+        seed: Some(seed + (done.best_epoch - 1) / config.epochs),
         dataset_hash: Some(done.dataset_hash),
         backend: Some(backend.name().to_owned()),
         epochs: Some(done.history.len() as u64),
@@ -184,6 +215,68 @@ pub fn train(dataset: &Dataset, job: &Job<'_>, stop: &dyn Fn() -> bool, observe:
         ..job.provenance.clone()
     };
     Ok(Outcome::Finished { mlp: Box::new(network(&done.best_parameters, provenance)?), history: done.history })
+}
+
+/// What every epoch learns from: rows in shuffled blocks, some of them replaced by those of fresh pixels where the dataset says so.
+///
+/// The rows stand in segments, a ring: before epoch e > 1, segment e − 2 (modulo their number) is filled anew from pixels (e − 1) · 2^32 on. So
+/// what an epoch learns from depends on the seed and the epoch alone, and an interrupted training can go on.
+struct Feed {
+    blocks: Blocks,
+    order: Vec<u32>,
+    seed: u64,
+    segments: u64,
+    stream: Option<RowStream>,
+}
+
+impl Feed {
+    /// The feed as it stands after so many epochs.
+    fn new(dataset: &Dataset, seed: u64, epochs: u64) -> Result<Self, TrainError> {
+        let rows = &dataset.training;
+        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+        order.shuffle(&mut stream(seed, PURPOSE, 0));
+        let blocks = Blocks::of(rows, &order);
+        let manifest = &dataset.manifest;
+        let refresh = manifest.dataset.refresh;
+        let stream = match (refresh > 0.0, &manifest.synth) {
+            (false, _) => None,
+            (true, None) => return Err(TrainError::NoStream),
+            (true, Some(synth)) => Some(RowStream::new(manifest.seed, synth, &manifest.dataset, Purpose::Training)?),
+        };
+        let segments = if refresh > 0.0 { (1.0 / refresh).round().min(rows.len() as f64) as u64 } else { 1 };
+        let mut feed = Self { blocks, order: Vec::new(), seed, segments, stream };
+        for epoch in (epochs + 1).saturating_sub(segments).max(2)..=epochs {
+            feed.refill(epoch)?;
+        }
+        Ok(feed)
+    }
+
+    fn next_epoch(&mut self, epoch: u64) -> Result<(), TrainError> {
+        self.refill(epoch)?;
+        self.order.clear();
+        self.order.extend(0..self.blocks.len() as u32);
+        self.order.shuffle(&mut stream(self.seed, PURPOSE, epoch));
+        Ok(())
+    }
+
+    /// Fills the segment of an epoch with fresh rows, in random order.
+    fn refill(&mut self, epoch: u64) -> Result<(), TrainError> {
+        let Some(stream_of_rows) = &mut self.stream else { return Ok(()) };
+        if epoch < 2 {
+            return Ok(());
+        }
+        let (segment, rows) = ((epoch - 2) % self.segments, self.blocks.rows() as u64);
+        let range = (segment * rows / self.segments) as usize..((segment + 1) * rows / self.segments) as usize;
+        stream_of_rows.skip_to((epoch - 1) << 32);
+        let mut fresh = stream_of_rows.take(range.len(), &|_| {})?;
+        normalise(&mut fresh.weights);
+        let mut order: Vec<u32> = (0..fresh.len() as u32).collect();
+        order.shuffle(&mut stream(self.seed, PURPOSE, (1 << 63) | epoch));
+        for (at, row) in range.zip(order) {
+            self.blocks.set(at, &fresh, row as usize);
+        }
+        Ok(())
+    }
 }
 
 fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
@@ -197,40 +290,21 @@ fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
 
 /// Mean squared error of a network over rows, in f64 over its f32 answers.
 pub fn mean_squared_error(mlp: &Mlp, rows: &Rows) -> f64 {
-    let out = mlp.forward_batch::<f32>(&rows.features);
+    let out = mlp.predict(&rows.features);
     out.iter().zip(&rows.targets).map(|(&o, &t)| (f64::from(o) - f64::from(t)).powi(2)).sum::<f64>() / rows.len() as f64
-}
-
-/// The rows of one step, side by side.
-#[derive(Default)]
-struct Batch {
-    features: Vec<f32>,
-    targets: Vec<f32>,
-}
-
-impl Batch {
-    fn gather(&mut self, rows: &Rows, indices: &[u32]) {
-        let width = rows.feature_set.width();
-        self.features.clear();
-        self.targets.clear();
-        for &i in indices {
-            let i = i as usize;
-            self.features.extend_from_slice(&rows.features[i * width..][..width]);
-            self.targets.push(rows.targets[i]);
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::build::tests::sizes;
     use crate::dataset::{DatasetConfig, build};
     use crate::features::FeatureSet;
     use crate::synth::SynthConfig;
-    use std::cell::Cell;
+    use std::sync::atomic::{AtomicU32, Ordering};
 
     fn dataset() -> Dataset {
-        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 1000, validation_pairs: 300 };
+        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 1000, validation_pairs: 300, ..sizes() };
         build("t", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap().0
     }
 
@@ -271,17 +345,42 @@ mod tests {
         let (dataset, config) = (dataset(), config(7));
         let path = folder.path().join("m.checkpoint.json");
         let straight = finished(train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}).unwrap());
-        let steps = Cell::new(0);
-        let stop = || {
-            steps.set(steps.get() + 1);
-            steps.get() > 4 * 3 + 2
-        };
+        let stop = stop_after(4 * 3 + 2);
         match train(&dataset, &job(&config, &path, false), &stop, &mut |_| {}).unwrap() {
             Outcome::Interrupted { epochs: 3, checkpoint: Some(at) } => assert_eq!(at, path),
             other => panic!("{other:?}"),
         }
         let resumed = finished(train(&dataset, &job(&config, &path, true), &|| false, &mut |_| {}).unwrap());
         assert_eq!(resumed, straight);
+    }
+
+    /// Says stop when asked once more than `steps` times.
+    fn stop_after(steps: u32) -> impl Fn() -> bool + Sync {
+        let asked = AtomicU32::new(0);
+        move || asked.fetch_add(1, Ordering::Relaxed) >= steps
+    }
+
+    /// The same with fresh pixels every epoch, the fused kernel, a falling step size and two networks, wherever it stops.
+    #[test]
+    fn an_interruption_changes_nothing_of_a_stream() {
+        let folder = tempfile::tempdir().unwrap();
+        let sizes = DatasetConfig { features: FeatureSet::Recentred, training_pairs: 2000, validation_pairs: 300, refresh: 0.25, ..sizes() };
+        let dataset = build("t", 3, &SynthConfig::paper(), &sizes, &|_| {}).unwrap().0;
+        let config: TrainConfig =
+            toml::from_str("hidden = [8]\nepochs = 7\nbatch = 512\nlearning_rate = 1e-2\nschedule = \"cosine\"\nseeds = 2").unwrap();
+        let path = folder.path().join("m.checkpoint.json");
+        let of = |resume| Job { backend: Backend::Fused, ..job(&config, &path, resume) };
+        let straight = finished(train(&dataset, &of(false), &|| false, &mut |_| {}).unwrap());
+        assert_eq!(straight.1.len(), 14);
+        for steps in [4 * 6 + 1, 4 * 7, 4 * 11 + 3] {
+            assert!(matches!(train(&dataset, &of(false), &stop_after(steps), &mut |_| {}).unwrap(), Outcome::Interrupted { .. }));
+            let resumed = finished(train(&dataset, &of(true), &|| false, &mut |_| {}).unwrap());
+            assert_eq!(resumed, straight, "stopped before step {}", steps + 1);
+        }
+        // Control: without fresh pixels it is another training.
+        let mut fixed = dataset;
+        fixed.manifest.dataset.refresh = 0.0;
+        assert_ne!(finished(train(&fixed, &of(false), &|| false, &mut |_| {}).unwrap()).1, straight.1);
     }
 
     #[test]

@@ -1,0 +1,229 @@
+//! Shader source of the recentred features: the twin of [`crate::features::recentred`], unrolled for the number of moments.
+
+use super::shader::{ENTRY, Language};
+use crate::features::FeatureSet;
+use crate::features::recentred::{ABSORBANCE_OFFSET, CLOSED_FORM_TOLERANCE, LEAST_HALF_RANGE};
+use std::fmt::Write;
+
+/// Writes lines of either language.
+struct Writer {
+    language: Language,
+    text: String,
+}
+
+impl Writer {
+    fn wgsl(&self) -> bool {
+        self.language == Language::Wgsl
+    }
+
+    /// A constant that keeps its f32 bits.
+    fn number(&self, x: f64) -> String {
+        self.language.literal(x as f32)
+    }
+
+    fn line(&mut self, line: &str) {
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    /// A value that does not change.
+    fn bind(&mut self, name: &str, value: &str) {
+        let head = if self.wgsl() { "let" } else { "float" };
+        self.line(&format!("    {head} {name} = {value};"));
+    }
+
+    /// A value that does.
+    fn variable(&mut self, name: &str, value: &str) {
+        let head = if self.wgsl() { "var" } else { "float" };
+        self.line(&format!("    {head} {name} = {value};"));
+    }
+
+    /// `condition ? yes : no`, both computed.
+    fn select(&self, condition: &str, yes: &str, no: &str) -> String {
+        if self.wgsl() { format!("select({no}, {yes}, {condition})") } else { format!("({condition} ? {yes} : {no})") }
+    }
+
+    fn array_type(&self, n: usize) -> String {
+        if self.wgsl() { format!("array<f32, {n}>") } else { format!("float[{n}]") }
+    }
+
+    fn array(&self, items: &[String]) -> String {
+        format!("{}({})", self.array_type(items.len()), items.join(", "))
+    }
+
+    /// Head of a function; a parameter with a number is an array of so many.
+    fn function(&mut self, name: &str, parameters: &[(&str, usize)], result: &str) {
+        let list: Vec<String> = parameters
+            .iter()
+            .map(|&(name, n)| match (self.wgsl(), n) {
+                (true, 0) => format!("{name}: f32"),
+                (true, n) => format!("{name}: array<f32, {n}>"),
+                (false, 0) => format!("float {name}"),
+                (false, n) => format!("float {name}[{n}]"),
+            })
+            .collect();
+        let list = list.join(", ");
+        let line = if self.wgsl() { format!("fn {name}({list}) -> {result} {{") } else { format!("{result} {name}({list}) {{") };
+        self.line(&line);
+    }
+
+    fn scalar(&self) -> &'static str {
+        if self.wgsl() { "f32" } else { "float" }
+    }
+}
+
+/// What the fragment's own data and what pass 1 left are called, in the order of parameters.
+const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
+
+/// Functions of pass 1, and the one that looks at a fragment in pass 2.
+pub fn source(language: Language, set: FeatureSet) -> String {
+    let (k, width) = (set.moments(), set.width());
+    let mut w = Writer { language, text: String::new() };
+    let scalar = w.scalar();
+    w.line("// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.");
+    w.function("nmt_absorbance", &[("alpha", 0)], scalar);
+    w.bind("faint", "alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))))");
+    let chosen = w.select("alpha < 0.03", "faint", "-log(max(1.0 - alpha, 0.000045399931))");
+    w.line(&format!("    return {chosen};\n}}\n"));
+
+    w.line("// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene.");
+    w.function("nmt_moment_depth", &[("v", 0), ("v0", 0), ("v1", 0)], scalar);
+    w.bind("warped", "2.0 * log(v / v0) / max(log(v1 / v0), 1e-30) - 1.0");
+    let chosen = w.select("v1 > v0", "clamp(warped, -1.0, 1.0)", "0.0");
+    w.line(&format!("    return {chosen};\n}}\n"));
+
+    w.line(&format!("// Pass 1: what a fragment at moment depth z adds to b1..b{k}; to b0 it adds its absorbance, to n it adds 1."));
+    let moments = w.array_type(k);
+    w.function("nmt_moments", &[("z", 0), ("absorbance", 0)], &moments);
+    own_moments(&mut w, k);
+    let items: Vec<String> = (1..=k).map(|i| format!("own{i}")).collect();
+    let items = w.array(&items);
+    w.line(&format!("    return {items};\n}}\n"));
+
+    w.line("// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
+    w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
+    w.line("// known without the network, else -1.");
+    let result = w.array_type(width + 1);
+    let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
+    w.function("nmt_recentred", &parameters, &result);
+    look(&mut w, k);
+    w.text
+}
+
+fn own_moments(w: &mut Writer, k: usize) {
+    for i in 1..=k {
+        let before = if i == 1 { "absorbance".to_owned() } else { format!("own{}", i - 1) };
+        w.bind(&format!("own{i}"), &format!("{before} * z"));
+    }
+}
+
+fn look(w: &mut Writer, k: usize) {
+    w.bind("others", "max(b0 - absorbance, 0.0)");
+    w.bind("c", "0.5 * (z_nearest + z_farthest)");
+    let least = w.number(LEAST_HALF_RANGE);
+    w.bind("h", &format!("max(0.5 * (z_farthest - z_nearest), {least})"));
+    own_moments(w, k);
+    w.bind("per_b0", "1.0 / max(others, 1e-30)");
+    for i in 1..=k {
+        w.variable(&format!("m{i}"), &format!("(b[{}] - own{i}) * per_b0", i - 1));
+    }
+    // Moments of z − c, one factor at a time.
+    for pass in 1..=k {
+        for i in (pass..=k).rev() {
+            let before = if i == 1 { "c".to_owned() } else { format!("c * m{}", i - 1) };
+            w.line(&format!("    m{i} = m{i} - {before};"));
+        }
+    }
+    w.bind("h1", "1.0 / h");
+    w.bind("h2", "h1 * h1");
+    w.bind("h3", "h2 * h1");
+    w.bind("h4", "h2 * h2");
+    for i in 1..=k {
+        let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
+        w.line(&format!("    m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
+    }
+    w.bind("x", "clamp((z - c) / h, -1.0, 1.0)");
+
+    // Three fragments, and four.
+    w.bind("share3", "clamp(0.5 * (1.0 - m1), 0.0, 1.0)");
+    w.bind("reach", "1.0 + 2.0 * abs(c) / h");
+    let epsilon = w.number(f32::EPSILON.into());
+    w.bind("e1", &format!("{epsilon} * reach * b0 * per_b0"));
+    w.bind("e2", "e1 * reach");
+    w.bind("inner", "1.0 - m2");
+    w.bind("safe_inner", "max(inner, 1e-30)");
+    w.bind("u", "clamp((m1 - m3) / safe_inner, -1.0, 1.0)");
+    w.bind("u_error", "(e1 + e2 * reach + abs(u) * e2) / safe_inner");
+    let sign = w.select("u < (z - c) / h", "-1.0", "1.0");
+    w.bind("side", &sign);
+    w.bind("gap", "1.0 + side * u");
+    w.bind("safe_gap", "max(gap, 1e-30)");
+    w.bind("end", "0.5 * (1.0 - side * m1 - inner / safe_gap)");
+    let straddles = w.select("abs((z - c) / h - u) <= u_error", &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
+    w.bind("error", &format!("0.5 * (e1 + e2 / safe_gap + inner * u_error / (safe_gap * safe_gap)) + {straddles}"));
+    let share = w.select("side < 0.0", "1.0 - end", "end");
+    w.bind("share4", &format!("clamp({share}, 0.0, 1.0)"));
+    let tolerance = w.number(CLOSED_FORM_TOLERANCE);
+    let closed = format!("inner > 0.0 && gap > 0.0 && error * min(others, 1.0) <= {tolerance}");
+    let four = w.select(&format!("n == 4.0 && {closed}"), "exp(-(others * share4))", "-1.0");
+    w.variable("known", &four);
+    for (condition, value) in
+        [("n == 3.0", "exp(-(others * share3))"), ("v == farthest", "exp(-others)"), ("v == nearest || others <= 1e-6 * b0", "1.0")]
+    {
+        let chosen = w.select(condition, value, "known");
+        w.line(&format!("    known = {chosen};"));
+    }
+
+    // The measure, and what is left of it without its ends.
+    let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
+    let mut items = vec!["x".to_owned()];
+    let third = w.number(std::f64::consts::LOG2_E / 3.0);
+    items.push(format!("log(n) * {third} - 1.0"));
+    let offset = w.number(ABSORBANCE_OFFSET.into());
+    items.push(format!("log(others + {offset})"));
+    for level in 0..k / 2 {
+        let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
+        if level == 0 {
+            w.bind(&mean, "m1");
+            w.bind(&spread, "clamp((m2 - mean0 * mean0) / max(1.0 - mean0 * mean0, 1e-6), 0.0, 1.0)");
+        } else {
+            w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
+            w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
+            w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / max(1.0 - {mean} * {mean}, 1e-6), 0.0, 1.0))", q[2]));
+        }
+        items.extend([mean, spread]);
+        let rest = q.len() - 2;
+        if rest > 2 {
+            q = (0..rest)
+                .map(|i| {
+                    let name = format!("q{}_{i}", level + 1);
+                    let value = format!("{} - {}", q[i], q[i + 2]);
+                    w.bind(&name, &value);
+                    name
+                })
+                .collect();
+        }
+    }
+    items.push("known".to_owned());
+    let items = w.array(&items);
+    w.line(&format!("    return {items};\n}}"));
+}
+
+/// The function that a renderer calls in pass 2: known answers where there are, the network where there are none.
+pub fn answer(language: Language, set: FeatureSet) -> String {
+    let (k, width) = (set.moments(), set.width());
+    let mut w = Writer { language, text: String::new() };
+    w.line(
+        "\n// Pass 2: transmittance in front of a fragment; the network runs only where nothing simpler is exact. Parameters as of nmt_recentred.",
+    );
+    let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
+    let scalar = w.scalar();
+    w.function("nmt_fragment_transmittance", &parameters, scalar);
+    let call = format!("nmt_recentred({}, b)", LOOK.join(", "));
+    let looked = if w.wgsl() { format!("    let looked = {call};") } else { format!("    float looked[{}] = {call};", width + 1) };
+    w.line(&looked);
+    w.line(&format!("    if (looked[{width}] >= 0.0) {{\n        return looked[{width}];\n    }}"));
+    let features: Vec<String> = (0..width).map(|i| format!("looked[{i}]")).collect();
+    let features = w.array(&features);
+    w.line(&format!("    return {ENTRY}({features});\n}}"));
+    w.text
+}
