@@ -133,8 +133,13 @@ mod tests {
     use super::super::interpret::Value;
     use super::*;
     use crate::export::{encode, shader::ENTRY};
-    use crate::features::paper;
+    use crate::features::recentred::{Known, PixelSums, Seen};
+    use crate::features::{FeatureSet, paper};
+    use crate::model::{Dense, Provenance};
+    use crate::numeric::rng::stream;
+    use crate::pixel::{LogWarp, ViewZ};
     use crate::model::mlp::tests::random_mlp;
+    use rand::RngExt;
 
     const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPacked, Format::Glsl, Format::GlslPacked];
 
@@ -268,5 +273,82 @@ mod tests {
             let tied = one("nmt_features", [0.5, 0.5, 0.5, 1.0, 1.0].map(number).into_iter().chain([Value::numbers(&[0.0; 4])]).collect());
             assert_eq!(tied[0], 0.0);
         }
+    }
+
+    /// The functions of the recentred features in both languages against their Rust twin in f32, for 4, 6 and 8 moments: what is known, to 2e-6, and the features, to
+    /// what one ulp of the moments makes of them. Control: swapped ends of the pixel.
+    #[test]
+    fn recentred_shaders_follow_their_twin() {
+        fn compare<const K: usize>(set: FeatureSet) {
+            let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
+            for format in [Format::Wgsl, Format::GlslPacked] {
+                let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
+                let interpreter = Interpreter::new(&module);
+                let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+                let mut rng = stream(5, 91, K as u64);
+                let (mut known, mut asked, mut controls) = (0, 0, 0);
+                for round in 0..300 {
+                    let n = 1 + round % 12;
+                    let v: Vec<f32> = (0..n).map(|_| rng.random_range(2.0..8.0)).collect();
+                    let alpha: Vec<f32> = (0..n).map(|_| rng.random_range(0.02..0.95)).collect();
+                    let mut sums = PixelSums::<f32, K>::default();
+                    let seen: Vec<Seen<f32>> = (0..n)
+                        .map(|i| {
+                            let z = one("nmt_moment_depth", vec![Value::Uniform(v[i]), Value::Uniform(1.0), Value::Uniform(10.0)])[0];
+                            let exact = LogWarp::new(ViewZ(1.0), ViewZ(10.0)).unwrap().moment(ViewZ(v[i].into())).0;
+                            assert!((f64::from(z) - exact).abs() < 1e-6);
+                            let absorbance = one("nmt_absorbance", vec![Value::Uniform(alpha[i])])[0];
+                            Seen { view_z: v[i], z, absorbance }
+                        })
+                        .collect();
+                    for s in &seen {
+                        sums.add(*s);
+                        let moments = one("nmt_moments", vec![Value::Uniform(s.z), Value::Uniform(s.absorbance)]);
+                        assert_eq!(moments.len(), K);
+                        assert!(moments.iter().enumerate().all(|(k, m)| (m - s.absorbance * s.z.powi(k as i32 + 1)).abs() <= 1e-6 * s.absorbance));
+                    }
+                    let end = |at: f32| seen.iter().find(|s| s.view_z == at).unwrap().z;
+                    let ends = [end(sums.nearest), end(sums.farthest)];
+                    for s in &seen {
+                        let arguments = |ends: [f32; 2]| -> Vec<Value<1>> {
+                            let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
+                            head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect()
+                        };
+                        let found = one("nmt_recentred", arguments(ends));
+                        let answer = one("nmt_fragment_transmittance", arguments(ends))[0];
+                        let off = |found: &[f32]| match sums.look(*s, ends) {
+                            Known::Transmittance(t) => !((found[set.width()] - t).abs() <= 2e-6),
+                            Known::Features(first, measure) => {
+                                let expected = first.iter().chain(&measure);
+                                found[set.width()] >= 0.0 || expected.enumerate().any(|(k, e)| !((found[k] - e).abs() <= if k < 5 { 1e-5 } else { 1e-2 }))
+                            }
+                        };
+                        assert!(!off(&found), "{format:?} K = {K} n = {n}: {found:?} for {:?}", sums.look(*s, ends));
+                        match sums.look(*s, ends) {
+                            Known::Transmittance(t) => {
+                                known += 1;
+                                assert!((answer - t).abs() <= 2e-6);
+                            }
+                            Known::Features(first, measure) => {
+                                asked += 1;
+                                let row: Vec<f32> = first.into_iter().chain(measure).collect();
+                                assert!((answer - mlp.forward::<f32>(&row)).abs() <= 0.05, "{answer}");
+                                controls += usize::from(off(&one("nmt_recentred", arguments([ends[1], ends[0]]))));
+                            }
+                        }
+                    }
+                }
+                assert!(known > 300 && asked > 300 && controls > asked / 2, "{known} known, {asked} asked, {controls} controls failed");
+            }
+        }
+        compare::<4>(FeatureSet::Recentred);
+        compare::<6>(FeatureSet::Recentred6);
+        compare::<8>(FeatureSet::Recentred8);
+    }
+
+    fn random_layers(width: usize) -> Vec<Dense> {
+        let mut rng = stream(6, 91, 0);
+        let mut numbers = |n: usize| (0..n).map(|_| rng.random_range(-0.7f32..0.7)).collect::<Vec<_>>();
+        vec![Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(), Dense::new(6, 1, numbers(6), numbers(1)).unwrap()]
     }
 }

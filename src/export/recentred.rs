@@ -162,14 +162,21 @@ fn look(w: &mut Writer, k: usize) {
     w.bind("error", &format!("0.5 * (e1 + e2 / safe_gap + inner * u_error / (safe_gap * safe_gap)) + {straddles}"));
     let share = w.select("side < 0.0", "1.0 - end", "end");
     w.bind("share4", &format!("clamp({share}, 0.0, 1.0)"));
+    w.bind("steepest", "others * exp(-(others * max(share4 - error, 0.0)))");
     let tolerance = w.number(CLOSED_FORM_TOLERANCE);
-    let closed = format!("inner > 0.0 && gap > 0.0 && error * min(others, 1.0) <= {tolerance}");
-    let four = w.select(&format!("n == 4.0 && {closed}"), "exp(-(others * share4))", "-1.0");
-    w.variable("known", &four);
-    for (condition, value) in
-        [("n == 3.0", "exp(-(others * share3))"), ("v == farthest", "exp(-others)"), ("v == nearest || others <= 1e-6 * b0", "1.0")]
-    {
-        let chosen = w.select(condition, value, "known");
+    // One condition a line: short-circuit operators would branch.
+    w.variable("known", "exp(-(others * share4))");
+    for (condition, value) in [
+        (format!("error * steepest > {tolerance}"), "-1.0"),
+        ("inner <= 0.0".to_owned(), "-1.0"),
+        ("gap <= 0.0".to_owned(), "-1.0"),
+        ("n != 4.0".to_owned(), "-1.0"),
+        ("n == 3.0".to_owned(), "exp(-(others * share3))"),
+        ("v == farthest".to_owned(), "exp(-others)"),
+        ("others <= 1e-6 * b0".to_owned(), "1.0"),
+        ("v == nearest".to_owned(), "1.0"),
+    ] {
+        let chosen = w.select(&condition, value, "known");
         w.line(&format!("    known = {chosen};"));
     }
 
