@@ -135,10 +135,10 @@ mod tests {
     use crate::export::{encode, shader::ENTRY};
     use crate::features::recentred::{Known, PixelSums, Seen};
     use crate::features::{FeatureSet, paper};
+    use crate::model::mlp::tests::random_mlp;
     use crate::model::{Dense, Provenance};
     use crate::numeric::rng::stream;
     use crate::pixel::{LogWarp, ViewZ};
-    use crate::model::mlp::tests::random_mlp;
     use rand::RngExt;
 
     const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPacked, Format::Glsl, Format::GlslPacked];
@@ -320,7 +320,8 @@ mod tests {
                             Known::Transmittance(t) => !((found[set.width()] - t).abs() <= 2e-6),
                             Known::Features(first, measure) => {
                                 let expected = first.iter().chain(&measure);
-                                found[set.width()] >= 0.0 || expected.enumerate().any(|(k, e)| !((found[k] - e).abs() <= if k < 5 { 1e-5 } else { 1e-2 }))
+                                found[set.width()] >= 0.0
+                                    || expected.enumerate().any(|(k, e)| !((found[k] - e).abs() <= if k < 5 { 1e-5 } else { 1e-2 }))
                             }
                         };
                         assert!(!off(&found), "{format:?} K = {K} n = {n}: {found:?} for {:?}", sums.look(*s, ends));

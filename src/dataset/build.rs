@@ -2,12 +2,12 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, Rows};
-use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Storage};
+use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Sampled, Storage, Target};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
-use rand::RngExt;
 use rand::seq::SliceRandom;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Keeps the random numbers of the split into training and validation pixels apart from all others.
@@ -72,6 +72,12 @@ pub enum DatasetError {
     /// The share of rows that are replaced is none.
     #[error("dataset.refresh = {0}: must be from 0 to 1")]
     Refresh(f64),
+    /// The feature set is not one that can be streamed.
+    #[error("dataset.features = '{0}': its pixels cannot be streamed; set dataset.refresh to 0")]
+    NoStream(&'static str),
+    /// Random pixels hold nothing that a network is needed for.
+    #[error("of a million random pixels none needs the network; let synth.pixels draw more than three fragments")]
+    NothingToLearn,
     /// The distribution is invalid.
     #[error(transparent)]
     Synth(#[from] SynthError),
@@ -150,6 +156,9 @@ impl RowStream {
     /// [`DatasetError`] names the field that is wrong.
     pub fn new(seed: u64, synth: &SynthConfig, config: &DatasetConfig, purpose: Purpose) -> Result<Self, DatasetError> {
         config.validate()?;
+        if config.features.target() != Target::Transmittance {
+            return Err(DatasetError::NoStream(config.features.name()));
+        }
         let source = Synth::new(synth.clone(), seed)?;
         let extractor = Extractor::new(config.features, Some(synth.camera), Some((synth.camera.near(), synth.camera.far())))?;
         Ok(Self { source, purpose, seed, config: config.clone(), extractor: extractor.with_storage(config.storage), next: 0 })
@@ -171,59 +180,58 @@ impl RowStream {
     /// [`DatasetError::Depth`] where a fragment's depth does not fit the feature set.
     pub fn take(&mut self, pairs: usize, progress: &dyn Fn(u64)) -> Result<Rows, DatasetError> {
         const CHUNK: usize = 8192;
-        let width = self.config.features.width();
-        let mut out = Rows { feature_set: self.config.features, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
+        // Pixels of one task.
+        const TASK: usize = 128;
+        let set = self.config.features;
+        let mut out = Rows { feature_set: set, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
         let first = self.next;
         while out.len() < pairs {
             let list = self.source.pixels(self.purpose, self.next, CHUNK);
-            let rows = rows(&list, &self.extractor)?;
-            let alpha = (self.config.weights == Weighting::Image).then(|| self.asked_alpha(&list)).transpose()?;
-            let mut at = 0;
-            for of_pixel in rows.pixels.chunk_by(|a, b| a == b) {
-                let n = of_pixel.len();
-                let pixel = self.next + u64::from(of_pixel[0]);
-                let chosen = self.choose(pixel, n);
-                for &i in &chosen {
-                    let row = at + i as usize;
-                    out.features.extend_from_slice(&rows.features[row * width..][..width]);
-                    out.targets.push(rows.targets[row]);
-                    out.pixels.push((pixel - first) as u32);
-                    if let Some(alpha) = &alpha {
-                        out.weights.push(alpha[row] * alpha[row] * n as f32 / chosen.len() as f32);
+            let tasks = (0..CHUNK / TASK).into_par_iter();
+            let parts: Vec<(Sampled, Vec<u32>)> = tasks.map(|task| self.rows_of(&list, task * TASK..(task + 1) * TASK)).collect::<Result<_, _>>()?;
+            'chunk: for (task, (part, counts)) in parts.into_iter().enumerate() {
+                let mut at = 0;
+                for (i, n) in counts.into_iter().enumerate() {
+                    let (rows, width) = (at..at + n as usize, set.width());
+                    let pixel = self.next + (task * TASK + i) as u64;
+                    out.features.extend_from_slice(&part.features[rows.start * width..rows.end * width]);
+                    out.targets.extend_from_slice(&part.targets[rows.clone()]);
+                    out.pixels.extend(std::iter::repeat_n((pixel - first) as u32, n as usize));
+                    if self.config.weights == Weighting::Image {
+                        // The rows stand for all fragments of the pixel.
+                        let stands_for = list.pixel(task * TASK + i).len() as f32 / n as f32;
+                        out.weights.extend(part.alpha[rows.clone()].iter().map(|a| a * a * stands_for));
                     }
-                }
-                at += n;
-                if out.len() >= pairs {
-                    self.next = pixel + 1;
-                    break;
+                    at = rows.end;
+                    if out.len() >= pairs {
+                        self.next = pixel + 1;
+                        break 'chunk;
+                    }
                 }
             }
             if out.len() < pairs {
                 self.next += CHUNK as u64;
+                if out.is_empty() && self.next - first > 1 << 20 {
+                    return Err(DatasetError::NothingToLearn);
+                }
             }
             progress(out.len() as u64);
         }
         Ok(out)
     }
 
-    /// Which of a pixel's n rows are taken.
-    fn choose(&self, pixel: u64, n: usize) -> Vec<u32> {
-        let most = self.config.rows_per_pixel as usize;
-        let mut all: Vec<u32> = (0..n as u32).collect();
-        if most > 0 && n > most {
-            let mut rng = stream(self.seed, CHOICE_PURPOSE, pixel);
-            for i in 0..most {
-                all.swap(i, rng.random_range(i..n));
-            }
-            all.truncate(most);
-        }
-        all
-    }
-
-    /// Opacities of the fragments that the network is asked about.
-    fn asked_alpha(&self, list: &FragmentList) -> Result<Vec<f32>, DepthError> {
-        let known = self.extractor.list(list, 0..list.pixels())?.known;
-        Ok(known.iter().zip(list.alpha()).filter(|(k, _)| k.is_nan()).map(|(_, &a)| a).collect())
+    /// Rows of some pixels of a list that starts at the stream's next pixel, and how many of each pixel.
+    fn rows_of(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<(Sampled, Vec<u32>), DepthError> {
+        let most = if self.config.rows_per_pixel == 0 { usize::MAX } else { self.config.rows_per_pixel as usize };
+        let mut rows = Sampled::default();
+        let counts = range
+            .map(|p| {
+                let mut rng = stream(self.seed, CHOICE_PURPOSE, self.next + p as u64);
+                self.extractor.sample(list.pixel(p), most, &mut rng, &mut rows)?;
+                Ok(rows.of_pixel as u32)
+            })
+            .collect::<Result<_, DepthError>>()?;
+        Ok((rows, counts))
     }
 }
 
@@ -232,18 +240,16 @@ pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dy
     const CHUNK: usize = 4096;
     let mut offsets = vec![0];
     let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
-    'enough: loop {
+    while (view_z.len() as u64) < pairs {
         let chunk = synth.pixels(purpose, offsets.len() as u64 - 1, CHUNK);
-        for p in 0..chunk.pixels() {
-            let pixel = chunk.pixel(p);
-            view_z.extend_from_slice(pixel.view_z);
-            alpha.extend_from_slice(pixel.alpha);
-            offsets.push(view_z.len() as u64);
-            if view_z.len() as u64 >= pairs {
-                break 'enough;
-            }
-        }
-        progress(view_z.len() as u64);
+        let before = view_z.len() as u64;
+        // Of the last chunk only the pixels up to the one that reaches the number.
+        let taken = chunk.offsets().partition_point(|&end| before + end < pairs).min(chunk.pixels());
+        let fragments = chunk.offsets()[taken] as usize;
+        offsets.extend(chunk.offsets()[1..=taken].iter().map(|end| before + end));
+        view_z.extend_from_slice(&chunk.view_z()[..fragments]);
+        alpha.extend_from_slice(&chunk.alpha()[..fragments]);
+        progress(pairs.min(view_z.len() as u64));
     }
     FragmentList::new(offsets, view_z, alpha, None).expect("made of valid pixels").with_planes(synth.config().camera)
 }
@@ -439,6 +445,18 @@ pub(crate) mod tests {
         // No validation pixel is a training pixel.
         let starts: std::collections::HashSet<u32> = (0..training.pixels()).map(|p| training.pixel(p).view_z[0].to_bits()).collect();
         assert!((0..validation.pixels()).all(|p| !starts.contains(&validation.pixel(p).view_z[0].to_bits())));
+    }
+
+    /// Of several chunks, and of a number that a pixel reaches exactly.
+    #[test]
+    fn pixels_that_hold_a_number_are_the_first_ones() {
+        let synth = Synth::new(SynthConfig::paper(), 3).unwrap();
+        let all = synth.pixels(Purpose::Training, 0, 12_000);
+        for pairs in [1, all.offsets()[100], all.offsets()[100] + 1, all.offsets()[4096], all.offsets()[4096] + 1, 150_000] {
+            let list = pixels_holding(&synth, Purpose::Training, pairs, &|n| assert!(n <= pairs));
+            assert_eq!(list, synth.pixels(Purpose::Training, 0, list.pixels()));
+            assert!(list.len() as u64 >= pairs && list.offsets()[list.pixels() - 1] < pairs);
+        }
     }
 
     #[test]

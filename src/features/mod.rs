@@ -5,8 +5,10 @@ pub mod paper;
 pub mod recentred;
 
 use crate::numeric::quantise::round_f16;
+use crate::numeric::rng::Stream;
 use crate::pixel::{CameraPlanes, DepthError, FragmentList, LogWarp, Pixel, ViewZ, absorbance, abuffer};
 use deep_weighted_blended::LinearRange;
+use rand::RngExt;
 use recentred::{Known, PixelSums, Seen};
 use serde::{Deserialize, Serialize};
 
@@ -208,6 +210,23 @@ impl Storage {
     }
 }
 
+/// Rows that [`Extractor::sample`] has made, and what it works in.
+#[derive(Debug, Clone, Default)]
+pub struct Sampled {
+    /// `[N, W]`, row by row.
+    pub features: Vec<f32>,
+    /// Exact transmittances, `[N]`.
+    pub targets: Vec<f32>,
+    /// Opacities of the fragments, `[N]`.
+    pub alpha: Vec<f32>,
+    /// Rows of the last pixel.
+    pub of_pixel: usize,
+    seen: Vec<Seen<f32>>,
+    order: Vec<u32>,
+    whole: Vec<f32>,
+    absorbances: Vec<f64>,
+}
+
 /// What a feature set says of some fragments.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Look {
@@ -283,29 +302,36 @@ impl Extractor {
         }
     }
 
-    fn recentred<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, out: &mut [f32]) {
-        let width = self.set.width();
-        assert_eq!(out.len(), pixel.len() * (width + 1), "one row of {} numbers a fragment", width + 1);
-        let seen = |i: usize| Seen {
-            view_z: pixel.view_z[i],
-            z: warp.moment(ViewZ(pixel.view_z[i].into())).0 as f32,
-            absorbance: absorbance(pixel.alpha[i]) as f32,
-        };
+    /// Pass 1 over a pixel: its fragments as both passes see them, the sums, and the moment depths of its ends.
+    fn pass_1<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, seen: &mut Vec<Seen<f32>>) -> (PixelSums<f32, K>, [f32; 2]) {
+        seen.clear();
         let mut sums = PixelSums::<f32, K>::default();
-        for i in 0..pixel.len() {
-            // What is seen is kept in the fragment's row until pass 2 overwrites it.
-            let seen = seen(i);
-            (out[i * (width + 1)], out[i * (width + 1) + 1]) = (seen.z, seen.absorbance);
-            sums.add(seen);
+        let mut ends = [0.0; 2];
+        for (&view_z, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
+            let one = Seen { view_z, z: warp.moment(ViewZ(view_z.into())).0 as f32, absorbance: absorbance(alpha) as f32 };
+            sums.add(one);
+            if sums.nearest == view_z {
+                ends[0] = one.z;
+            }
+            if sums.farthest == view_z {
+                ends[1] = one.z;
+            }
             if self.storage.rounds() {
                 let round = |x: f32| round_f16(x.into()) as f32;
                 sums.b0 = round(sums.b0);
                 sums.b = sums.b.map(round);
             }
+            seen.push(one);
         }
-        let ends = [sums.nearest, sums.farthest].map(|v| warp.moment(ViewZ(v.into())).0 as f32);
-        for (i, row) in out.chunks_exact_mut(width + 1).enumerate() {
-            let seen = Seen { view_z: pixel.view_z[i], z: row[0], absorbance: row[1] };
+        (sums, ends)
+    }
+
+    fn recentred<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, out: &mut [f32]) {
+        let width = self.set.width();
+        assert_eq!(out.len(), pixel.len() * (width + 1), "one row of {} numbers a fragment", width + 1);
+        let mut seen = Vec::with_capacity(pixel.len());
+        let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut seen);
+        for (row, seen) in out.chunks_exact_mut(width + 1).zip(seen) {
             row[width] = match sums.look(seen, ends) {
                 Known::Transmittance(t) => {
                     row[..width].fill(0.0);
@@ -317,6 +343,73 @@ impl Extractor {
                     f32::NAN
                 }
             };
+        }
+    }
+
+    /// Appends rows of at most `most` fragments of a pixel that the network is asked about, chosen at random: features, and the exact transmittance.
+    ///
+    /// # Errors
+    /// As [`Self::pixel`].
+    ///
+    /// # Panics
+    /// If the set is not trained on transmittances.
+    pub fn sample(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) -> Result<(), DepthError> {
+        assert_eq!(self.set.target(), Target::Transmittance, "rows are answered with transmittances");
+        match (self.kind, self.set.moments()) {
+            (Kind::Recentred(warp), 4) => self.sample_of::<4>(pixel, warp, most, rng, rows),
+            (Kind::Recentred(warp), 6) => self.sample_of::<6>(pixel, warp, most, rng, rows),
+            (Kind::Recentred(warp), _) => self.sample_of::<8>(pixel, warp, most, rng, rows),
+            _ => return self.sample_all(pixel, most, rng, rows),
+        }
+        Ok(())
+    }
+
+    /// [`Self::sample`] of a set that asks the network about every fragment.
+    fn sample_all(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) -> Result<(), DepthError> {
+        let (n, width) = (pixel.len(), self.set.width());
+        rows.whole.resize(n * (width + 1), 0.0);
+        self.pixel(pixel, &mut rows.whole)?;
+        rows.order.clear();
+        rows.order.extend(0..n as u32);
+        rows.of_pixel = n.min(most);
+        rows.absorbances.clear();
+        rows.absorbances.extend(pixel.alpha.iter().map(|&a| absorbance(a)));
+        for i in 0..rows.of_pixel {
+            if most < n {
+                rows.order.swap(i, rng.random_range(i..n));
+            }
+            let at = rows.order[i] as usize;
+            let in_front = pixel.view_z.iter().zip(&rows.absorbances).map(|(&v, &a)| if v < pixel.view_z[at] { a } else { 0.0 }).sum::<f64>();
+            rows.features.extend_from_slice(&rows.whole[at * (width + 1)..][..width]);
+            rows.targets.push(libm::exp(-in_front) as f32);
+            rows.alpha.push(pixel.alpha[at]);
+        }
+        Ok(())
+    }
+
+    fn sample_of<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, most: usize, rng: &mut Stream, rows: &mut Sampled) {
+        let Sampled { seen, order, .. } = rows;
+        let (sums, ends) = self.pass_1::<K>(pixel, warp, seen);
+        let n = pixel.len();
+        order.clear();
+        order.extend(0..n as u32);
+        rows.of_pixel = 0;
+        for i in 0..n {
+            if rows.of_pixel == most {
+                break;
+            }
+            if most < n {
+                order.swap(i, rng.random_range(i..n));
+            }
+            let one = seen[order[i] as usize];
+            if let Known::Features(first, measure) = sums.look(one, ends) {
+                let in_front = seen.iter().map(|s| if s.view_z < one.view_z { f64::from(s.absorbance) } else { 0.0 }).sum::<f64>();
+                rows.features.extend_from_slice(&first);
+                rows.features.extend_from_slice(&measure);
+                rows.targets.push(libm::exp(-in_front) as f32);
+                rows.alpha.push(pixel.alpha[order[i] as usize]);
+                rows.of_pixel += 1;
+            }
         }
     }
 

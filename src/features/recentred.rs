@@ -241,7 +241,7 @@ fn clamp<R: Real>(x: R, low: R, high: R) -> R {
 mod tests {
     use super::*;
     use crate::numeric::rng::stream;
-    use crate::pixel::{Pixel, abuffer, absorbance};
+    use crate::pixel::{Pixel, absorbance, abuffer};
     use rand::RngExt;
 
     /// A pixel in moment depth; view depth is e^z, so that both order alike.
@@ -255,7 +255,8 @@ mod tests {
             let c = rng.random_range(half - 1.0..1.0 - half);
             let gap = 2.0 * half * least_gap;
             let z = loop {
-                let mut z: Vec<f64> = [-1.0, 1.0].into_iter().chain((2..n).map(|_| rng.random_range(-1.0..1.0))).map(|x| c + half * x).take(n).collect();
+                let mut z: Vec<f64> =
+                    [-1.0, 1.0].into_iter().chain((2..n).map(|_| rng.random_range(-1.0..1.0))).map(|x| c + half * x).take(n).collect();
                 let mut sorted = z.clone();
                 sorted.sort_by(f64::total_cmp);
                 if sorted.windows(2).all(|w| w[1] - w[0] >= gap) {
@@ -365,8 +366,7 @@ mod tests {
                 for (i, known) in case.look::<f64, K>().into_iter().enumerate() {
                     let Known::Features([x, count, ln_b0], measure) = known else { continue };
                     let own_x = |z: f64| (2.0 * z - lo - hi) / (hi - lo);
-                    let others: Vec<(f64, f64)> =
-                        (0..n).filter(|&j| j != i).map(|j| (own_x(case.z[j]), absorbance(case.alpha[j]))).collect();
+                    let others: Vec<(f64, f64)> = (0..n).filter(|&j| j != i).map(|j| (own_x(case.z[j]), absorbance(case.alpha[j]))).collect();
                     let b0: f64 = others.iter().map(|o| o.1).sum();
                     let mut expected = vec![own_x(case.z[i]), (n as f64).log2() / 3.0 - 1.0, (b0 + f64::from(ABSORBANCE_OFFSET)).ln()];
                     for level in 0..K / 2 {
