@@ -96,18 +96,16 @@ pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dy
     const CHUNK: usize = 4096;
     let mut offsets = vec![0];
     let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
-    'enough: loop {
+    while (view_z.len() as u64) < pairs {
         let chunk = synth.pixels(purpose, offsets.len() as u64 - 1, CHUNK);
-        for p in 0..chunk.pixels() {
-            let pixel = chunk.pixel(p);
-            view_z.extend_from_slice(pixel.view_z);
-            alpha.extend_from_slice(pixel.alpha);
-            offsets.push(view_z.len() as u64);
-            if view_z.len() as u64 >= pairs {
-                break 'enough;
-            }
-        }
-        progress(view_z.len() as u64);
+        let before = view_z.len() as u64;
+        // Of the last chunk only the pixels up to the one that reaches the number.
+        let taken = chunk.offsets().partition_point(|&end| before + end < pairs).min(chunk.pixels());
+        let fragments = chunk.offsets()[taken] as usize;
+        offsets.extend(chunk.offsets()[1..=taken].iter().map(|end| before + end));
+        view_z.extend_from_slice(&chunk.view_z()[..fragments]);
+        alpha.extend_from_slice(&chunk.alpha()[..fragments]);
+        progress(pairs.min(view_z.len() as u64));
     }
     FragmentList::new(offsets, view_z, alpha, None).expect("made of valid pixels").with_planes(synth.config().camera)
 }
@@ -267,6 +265,18 @@ pub(crate) mod tests {
         // No validation pixel is a training pixel.
         let starts: std::collections::HashSet<u32> = (0..training.pixels()).map(|p| training.pixel(p).view_z[0].to_bits()).collect();
         assert!((0..validation.pixels()).all(|p| !starts.contains(&validation.pixel(p).view_z[0].to_bits())));
+    }
+
+    /// Of several chunks, and of a number that a pixel reaches exactly.
+    #[test]
+    fn pixels_that_hold_a_number_are_the_first_ones() {
+        let synth = Synth::new(SynthConfig::paper(), 3).unwrap();
+        let all = synth.pixels(Purpose::Training, 0, 12_000);
+        for pairs in [1, all.offsets()[100], all.offsets()[100] + 1, all.offsets()[4096], all.offsets()[4096] + 1, 150_000] {
+            let list = pixels_holding(&synth, Purpose::Training, pairs, &|n| assert!(n <= pairs));
+            assert_eq!(list, synth.pixels(Purpose::Training, 0, list.pixels()));
+            assert!(list.len() as u64 >= pairs && list.offsets()[list.pixels() - 1] < pairs);
+        }
     }
 
     #[test]

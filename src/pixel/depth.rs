@@ -121,6 +121,7 @@ impl WindowDepth {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LogWarp {
     v0: f64,
+    log_ratio: f64,
     inverse_log_ratio: f64,
 }
 
@@ -134,7 +135,7 @@ impl LogWarp {
             return Err(DepthError::BadRange { v0, v1 });
         }
         let log_ratio = libm::log(v1 / v0);
-        Ok(Self { v0, inverse_log_ratio: if log_ratio > 0.0 { 1.0 / log_ratio } else { 0.0 } })
+        Ok(Self { v0, log_ratio, inverse_log_ratio: if log_ratio > 0.0 { 1.0 / log_ratio } else { 0.0 } })
     }
 
     /// Moment depth of a view depth, clamped to [−1, 1].
@@ -143,6 +144,11 @@ impl LogWarp {
             return MomentDepth(0.0);
         }
         MomentDepth((2.0 * libm::log(v / self.v0) * self.inverse_log_ratio - 1.0).clamp(-1.0, 1.0))
+    }
+
+    /// The inverse of [`Self::moment`]: v = v0 (v1/v0)^((z + 1)/2).
+    pub fn view_z(&self, MomentDepth(z): MomentDepth) -> ViewZ {
+        ViewZ(self.v0 * libm::exp(0.5 * (z + 1.0) * self.log_ratio))
     }
 }
 
@@ -189,6 +195,14 @@ mod tests {
             let stored = planes.view_z(WindowDepth(w)).0 as f32;
             let back = planes.window(ViewZ(stored.into())).unwrap().0;
             prop_assert!((back - w).abs() < 1e-7, "{w} -> {stored} -> {back}");
+        }
+
+        /// Tolerance: a few roundings of numbers of order 1 to 10.
+        #[test]
+        fn the_log_warp_has_an_inverse(z in -1.0f64..=1.0, v0 in 0.01f64..10.0, ratio in 1.01f64..1e4) {
+            let warp = LogWarp::new(ViewZ(v0), ViewZ(v0 * ratio)).unwrap();
+            let back = warp.moment(warp.view_z(MomentDepth(z))).0;
+            prop_assert!((back - z).abs() < 2e-13, "{z} -> {back}");
         }
     }
 }

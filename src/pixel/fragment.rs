@@ -165,10 +165,10 @@ impl FragmentList {
             }
         }
         let pixel = |index: usize| offsets.partition_point(|&o| o <= index as u64) - 1;
-        if let Some(index) = view_z.iter().position(|&v| !(v > 0.0 && v.is_finite())) {
+        if let Some(index) = first_outside(&view_z, |v| (v > 0.0) & (v < f32::INFINITY)) {
             return Err(FragmentError::ViewZ { index, pixel: pixel(index), value: view_z[index] });
         }
-        if let Some(index) = alpha.iter().position(|a| !(0.0..=1.0).contains(a)) {
+        if let Some(index) = first_outside(&alpha, |a| (0.0..=1.0).contains(&a)) {
             return Err(FragmentError::Alpha { index, pixel: pixel(index), value: alpha[index] });
         }
         if let Some(color) = &color
@@ -317,6 +317,13 @@ impl FragmentList {
     }
 }
 
+/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop runs on SIMD lanes.
+fn first_outside(values: &[f32], domain: impl Fn(f32) -> bool) -> Option<usize> {
+    const CHUNK: usize = 1024;
+    let chunk = values.chunks(CHUNK).position(|chunk| !chunk.iter().fold(true, |all, &x| all & domain(x)))?;
+    (chunk * CHUNK..values.len()).find(|&i| !domain(values[i]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -335,6 +342,18 @@ mod tests {
         assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
         let twice = ties.followed_by(&ties);
         assert_eq!((twice.pixels(), twice.len(), twice.range(4), twice.range(5)), (6, 6, 3..5, 5..6));
+    }
+
+    /// In whatever chunk it lies, and before any later one.
+    #[test]
+    fn the_first_value_outside_is_found() {
+        for at in [0, 1, 1023, 1024, 1500, 2999] {
+            let mut values = vec![0.5f32; 3000];
+            values[2999] = -1.0;
+            values[at] = f32::NAN;
+            assert_eq!(first_outside(&values, |x| x > 0.0), Some(at));
+        }
+        assert_eq!(first_outside(&[0.5; 3000], |x| x > 0.0), None);
     }
 
     #[test]

@@ -1,163 +1,16 @@
 //! Random pixels: distributions in, fragment lists out.
 
+pub mod config;
+mod draw;
+
 use crate::numeric::rng::{Stream, stream};
-use crate::pixel::{CameraPlanes, FragmentList, WindowDepth};
-use rand_distr::{Distribution, Uniform};
+use crate::pixel::FragmentList;
+pub use config::{SynthConfig, SynthError};
+use draw::{Camera, Law, Scratch, unit};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
-/// Most fragments that a pixel may be configured to have.
-pub const MOST_FRAGMENTS: u32 = 1 << 16;
-
-/// A random pixel's distribution.
-///
-/// NMT24 Sec. 3.2 gives the ranges ("2 to 32 fragments, fragment depth ranges 0.3 to 1.0, values 0.1 to 0.5") and leaves open what they are
-/// ranges *of*; [`DepthReading`] and [`AlphaReading`] are the readings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SynthConfig {
-    /// Fragments of a pixel: a whole number, uniform in [min, max].
-    pub fragments: CountRange,
-    /// Window depths.
-    pub depth: DepthConfig,
-    /// Opacities.
-    pub alpha: AlphaConfig,
-    /// Planes that take window depth to the view depth that a fragment list carries.
-    pub camera: CameraPlanes,
-}
-
-/// A range of whole numbers, ends included.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CountRange {
-    /// Least.
-    pub min: u32,
-    /// Greatest.
-    pub max: u32,
-}
-
-/// How window depths are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DepthConfig {
-    /// Least, in [0, 1].
-    pub min: f64,
-    /// Greatest, in [0, 1].
-    pub max: f64,
-    /// What the range is a range of.
-    #[serde(default)]
-    pub reading: DepthReading,
-}
-
-/// What the depth range is a range of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DepthReading {
-    /// Each fragment's window depth is uniform in the range.
-    #[default]
-    PerFragment,
-    /// A pixel's extent e = zmax − zmin is uniform in the range, its place uniform within [0, 1 − e]; one fragment lies at each end and the
-    /// others are uniform between. A single fragment is uniform in [0, 1].
-    PixelExtent,
-}
-
-/// How opacities are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AlphaConfig {
-    /// Least, in [0, 1].
-    pub min: f64,
-    /// Greatest, in [0, 1].
-    pub max: f64,
-    /// Whether fragments of a pixel share one value.
-    #[serde(default)]
-    pub reading: AlphaReading,
-}
-
-/// Whether the fragments of a pixel share one opacity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum AlphaReading {
-    /// Each fragment draws its own.
-    #[default]
-    PerFragment,
-    /// One draw serves the whole pixel.
-    PerPixel,
-}
-
-/// What is wrong with a distribution.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SynthError {
-    /// The least count is below 1.
-    #[error("synth.fragments.min = {0}: a pixel needs at least 1 fragment")]
-    NoFragments(u32),
-    /// The greatest count is absurd.
-    #[error("synth.fragments.max = {0}: at most {MOST_FRAGMENTS} fragments a pixel are supported")]
-    TooManyFragments(u32),
-    /// min > max.
-    #[error("synth.{field}: min = {min} is greater than max = {max}; swap them")]
-    Inverted {
-        /// The range.
-        field: &'static str,
-        /// Its lower end.
-        min: f64,
-        /// Its upper end.
-        max: f64,
-    },
-    /// An end of a range is outside [0, 1] or NaN.
-    #[error("synth.{field}.{end} = {value}: must lie in [0, 1]")]
-    OutsideUnit {
-        /// The range.
-        field: &'static str,
-        /// Which end.
-        end: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The camera's planes are invalid.
-    #[error("synth.camera: {0}")]
-    Camera(crate::pixel::DepthError),
-}
-
-impl SynthConfig {
-    /// NMT24's distribution in the default reading.
-    pub fn paper() -> Self {
-        Self {
-            fragments: CountRange { min: 2, max: 32 },
-            depth: DepthConfig { min: 0.3, max: 1.0, reading: DepthReading::PerFragment },
-            alpha: AlphaConfig { min: 0.1, max: 0.5, reading: AlphaReading::PerFragment },
-            camera: CameraPlanes::new(0.1, 100.0).expect("0 < near < far"),
-        }
-    }
-
-    /// Checks every range.
-    ///
-    /// # Errors
-    /// [`SynthError`] names the field.
-    pub fn validate(&self) -> Result<(), SynthError> {
-        let CountRange { min, max } = self.fragments;
-        if min < 1 {
-            return Err(SynthError::NoFragments(min));
-        }
-        if min > max {
-            return Err(SynthError::Inverted { field: "fragments", min: min.into(), max: max.into() });
-        }
-        if max > MOST_FRAGMENTS {
-            return Err(SynthError::TooManyFragments(max));
-        }
-        for (field, min, max) in [("depth", self.depth.min, self.depth.max), ("alpha", self.alpha.min, self.alpha.max)] {
-            for (end, value) in [("min", min), ("max", max)] {
-                if !(0.0..=1.0).contains(&value) {
-                    return Err(SynthError::OutsideUnit { field, end, value });
-                }
-            }
-            if min > max {
-                return Err(SynthError::Inverted { field, min, max });
-            }
-        }
-        self.camera.checked().map(drop).map_err(SynthError::Camera)
-    }
-}
+/// Pixels that one task draws: enough to pay for the task, few enough that their fragments stay in the cache.
+const TASK: usize = 256;
 
 /// What random pixels are for: pixels of different purposes are independent though they share a seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -175,9 +28,18 @@ pub enum Purpose {
 pub struct Synth {
     config: SynthConfig,
     seed: u64,
-    count: Uniform<u32>,
-    depth: Uniform<f64>,
-    alpha: Uniform<f64>,
+    camera: Camera,
+    laws: Vec<Law>,
+    /// Shares of the laws, added up: the last is 1.
+    shares: Vec<f64>,
+}
+
+/// Fragments of some pixels.
+#[derive(Default)]
+struct Part {
+    counts: Vec<u32>,
+    view_z: Vec<f32>,
+    alpha: Vec<f32>,
 }
 
 impl Synth {
@@ -187,12 +49,17 @@ impl Synth {
     /// As [`SynthConfig::validate`].
     pub fn new(config: SynthConfig, seed: u64) -> Result<Self, SynthError> {
         config.validate()?;
-        let range = |min: f64, max: f64| Uniform::new_inclusive(min, max).expect("validated: min <= max, both finite");
+        let total: f64 = config.pixels.iter().map(|law| law.weight).sum();
+        let mut sum = 0.0;
+        let mut share = |weight: f64| {
+            sum += weight;
+            sum / total
+        };
         Ok(Self {
             seed,
-            count: Uniform::new_inclusive(config.fragments.min, config.fragments.max).expect("validated: min <= max"),
-            depth: range(config.depth.min, config.depth.max),
-            alpha: range(config.alpha.min, config.alpha.max),
+            camera: Camera::new(config.camera),
+            laws: config.pixels.iter().map(Law::new).collect(),
+            shares: config.pixels.iter().map(|law| share(law.weight)).collect(),
             config,
         })
     }
@@ -206,45 +73,48 @@ impl Synth {
     ///
     /// Pixel i depends on (seed, purpose, i) alone: any range gives the same pixels as any other range that holds them, on any number of threads.
     pub fn pixels(&self, purpose: Purpose, first: u64, count: usize) -> FragmentList {
-        let pixels: Vec<_> = (0..count).into_par_iter().with_min_len(64).map(|i| self.pixel(purpose, first + i as u64)).collect();
-        let fragments = pixels.iter().map(|(view_z, _)| view_z.len()).sum();
+        let parts: Vec<Part> = (0..count.div_ceil(TASK))
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, task| {
+                let start = task * TASK;
+                self.part(purpose, first + start as u64, TASK.min(count - start), scratch)
+            })
+            .collect();
+        let fragments = parts.iter().map(|part| part.view_z.len()).sum();
         let mut offsets = Vec::with_capacity(count + 1);
         let mut view_z = Vec::with_capacity(fragments);
         let mut alpha = Vec::with_capacity(fragments);
-        offsets.push(0);
-        for (v, a) in pixels {
-            view_z.extend(v);
-            alpha.extend(a);
-            offsets.push(view_z.len() as u64);
+        let mut end = 0;
+        offsets.push(end);
+        for part in parts {
+            offsets.extend(part.counts.iter().map(|&n| {
+                end += u64::from(n);
+                end
+            }));
+            view_z.extend_from_slice(&part.view_z);
+            alpha.extend_from_slice(&part.alpha);
         }
         FragmentList::new(offsets, view_z, alpha, None).expect("a validated distribution gives valid fragments").with_planes(self.config.camera)
     }
 
-    /// View depths and opacities of one pixel.
-    fn pixel(&self, purpose: Purpose, index: u64) -> (Vec<f32>, Vec<f32>) {
-        let mut rng = stream(self.seed, purpose as u64, index);
-        let n = self.count.sample(&mut rng) as usize;
-        let window = self.window_depths(&mut rng, n);
-        let (near, far) = (self.config.camera.near(), self.config.camera.far());
-        let view_z = window.into_iter().map(|w| (self.config.camera.view_z(w).0 as f32).clamp(near, far)).collect();
-        let mut draw = || (self.alpha.sample(&mut rng) as f32).clamp(0.0, 1.0);
-        let alpha = match self.config.alpha.reading {
-            AlphaReading::PerFragment => (0..n).map(|_| draw()).collect(),
-            AlphaReading::PerPixel => vec![draw(); n],
-        };
-        (view_z, alpha)
+    fn part(&self, purpose: Purpose, first: u64, count: usize, scratch: &mut Scratch) -> Part {
+        let mut part = Part { counts: Vec::with_capacity(count), ..Part::default() };
+        for index in first..first + count as u64 {
+            let mut rng = stream(self.seed, purpose as u64, index);
+            let before = part.view_z.len();
+            self.law(&mut rng).draw(&mut rng, &self.camera, scratch, &mut part.view_z, &mut part.alpha);
+            part.counts.push((part.view_z.len() - before) as u32);
+        }
+        part
     }
 
-    fn window_depths(&self, rng: &mut Stream, n: usize) -> Vec<WindowDepth> {
-        let unit = Uniform::new_inclusive(0.0, 1.0).expect("0 <= 1");
-        match self.config.depth.reading {
-            DepthReading::PerFragment => (0..n).map(|_| WindowDepth(self.depth.sample(rng))).collect(),
-            DepthReading::PixelExtent if n == 1 => vec![WindowDepth(unit.sample(rng))],
-            DepthReading::PixelExtent => {
-                let extent = self.depth.sample(rng);
-                let start = unit.sample(rng) * (1.0 - extent);
-                let place = |u: f64| WindowDepth((start + u * extent).clamp(0.0, 1.0));
-                [0.0, 1.0].into_iter().chain((2..n).map(|_| unit.sample(rng))).map(place).collect()
+    /// The law of a pixel. Where there is only one, no number is drawn for it.
+    fn law(&self, rng: &mut Stream) -> &Law {
+        match self.laws.as_slice() {
+            [only] => only,
+            laws => {
+                let u = unit(rng);
+                &laws[self.shares.iter().position(|&share| u < share).expect("u < 1, the last share")]
             }
         }
     }
@@ -252,12 +122,18 @@ impl Synth {
 
 #[cfg(test)]
 mod tests {
+    use super::config::*;
     use super::*;
 
-    fn synth(change: impl FnOnce(&mut SynthConfig)) -> Synth {
+    /// The paper's distribution, changed.
+    fn synth(change: impl FnOnce(&mut PixelLaw)) -> Synth {
         let mut config = SynthConfig::paper();
-        change(&mut config);
+        change(&mut config.pixels[0]);
         Synth::new(config, 7).unwrap()
+    }
+
+    fn window(min: f64, max: f64, reading: DepthReading) -> DepthLaw {
+        DepthLaw::Window { min, max, reading }
     }
 
     fn windows(list: &FragmentList, p: usize) -> Vec<f64> {
@@ -265,29 +141,42 @@ mod tests {
         list.pixel(p).view_z.iter().map(|&v| planes.window(crate::pixel::ViewZ(v.into())).unwrap().0).collect()
     }
 
+    fn sha256(list: &FragmentList) -> String {
+        let bytes: Vec<u8> = list.view_z().iter().chain(list.alpha()).flat_map(|v| v.to_le_bytes()).collect();
+        crate::numeric::digest::sha256_hex([bytes.as_slice()])
+    }
+
     #[test]
     fn any_pixel_can_be_made_alone_and_threads_change_nothing() {
-        let synth = synth(|_| {});
-        let all = synth.pixels(Purpose::Training, 0, 1000);
-        for p in [0, 1, 499, 999] {
-            let alone = synth.pixels(Purpose::Training, p as u64, 1);
-            assert_eq!(alone.view_z(), all.pixel(p).view_z);
-            assert_eq!(alone.alpha(), all.pixel(p).alpha);
+        for config in [SynthConfig::paper(), SynthConfig::wide()] {
+            let synth = Synth::new(config, 7).unwrap();
+            let all = synth.pixels(Purpose::Training, 0, 1000);
+            assert_eq!(all.pixels(), 1000);
+            for p in [0, 1, 255, 256, 499, 999] {
+                let alone = synth.pixels(Purpose::Training, p as u64, 1);
+                assert_eq!(alone.view_z(), all.pixel(p).view_z);
+                assert_eq!(alone.alpha(), all.pixel(p).alpha);
+            }
+            for threads in [1, 3] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                assert_eq!(pool.install(|| synth.pixels(Purpose::Training, 0, 1000)), all);
+            }
+            assert_ne!(synth.pixels(Purpose::Validation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
+            assert_ne!(synth.pixels(Purpose::Evaluation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
+            assert_eq!(synth.pixels(Purpose::Training, 5, 0).pixels(), 0);
         }
-        for threads in [1, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert_eq!(pool.install(|| synth.pixels(Purpose::Training, 0, 1000)), all);
-        }
-        assert_ne!(synth.pixels(Purpose::Validation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
-        assert_ne!(synth.pixels(Purpose::Evaluation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
     }
 
     /// The first pixels of seed 7 as they are on every machine: a change here breaks every published seed.
     #[test]
     fn bytes_of_a_seed_are_pinned() {
-        let list = synth(|_| {}).pixels(Purpose::Training, 0, 256);
-        let bytes: Vec<u8> = list.view_z().iter().chain(list.alpha()).flat_map(|v| v.to_le_bytes()).collect();
-        insta::assert_snapshot!(crate::numeric::digest::sha256_hex([bytes.as_slice()]));
+        insta::assert_snapshot!(sha256(&synth(|_| {}).pixels(Purpose::Training, 0, 256)));
+    }
+
+    /// The same of all laws at once.
+    #[test]
+    fn bytes_of_a_wide_seed_are_pinned() {
+        insta::assert_snapshot!(sha256(&Synth::new(SynthConfig::wide(), 7).unwrap().pixels(Purpose::Training, 0, 1024)));
     }
 
     /// Means and ranges of the default reading. Tolerances are 5 standard errors over 20 000 pixels.
@@ -310,49 +199,48 @@ mod tests {
 
     #[test]
     fn the_other_readings() {
-        let extent = synth(|c| c.depth.reading = DepthReading::PixelExtent).pixels(Purpose::Training, 0, 500);
+        let extent = synth(|law| law.depth = window(0.3, 1.0, DepthReading::PixelExtent)).pixels(Purpose::Training, 0, 500);
         for p in 0..extent.pixels() {
             let w = windows(&extent, p);
             let (lo, hi) = w.iter().fold((1.0f64, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
             assert!((0.3 - 1e-6..=1.0).contains(&(hi - lo)), "extent {}", hi - lo);
         }
-        let shared = synth(|c| c.alpha.reading = AlphaReading::PerPixel).pixels(Purpose::Training, 0, 500);
+        let per_pixel = AlphaLaw::Uniform { min: 0.1, max: 0.5, reading: AlphaReading::PerPixel };
+        let shared = synth(|law| law.alpha = per_pixel).pixels(Purpose::Training, 0, 500);
         assert!((0..shared.pixels()).all(|p| shared.pixel(p).alpha.iter().all(|&a| a == shared.pixel(p).alpha[0])));
-        let single = synth(|c| {
-            c.fragments = CountRange { min: 1, max: 1 };
-            c.depth.reading = DepthReading::PixelExtent;
+        let single = synth(|law| {
+            law.fragments = FragmentCount { min: 1, max: 1, law: CountLaw::Uniform };
+            law.depth = window(0.3, 1.0, DepthReading::PixelExtent);
         });
         assert_eq!(single.pixels(Purpose::Training, 0, 100).depth_complexity(), 1);
     }
 
+    /// Three laws that a pixel's fragment count tells apart. Tolerance: 5 standard errors of a share.
     #[test]
-    fn degenerate_ranges_are_valid() {
-        let constant = synth(|c| {
-            c.depth = DepthConfig { min: 0.5, max: 0.5, ..c.depth };
-            c.alpha = AlphaConfig { min: 1.0, max: 1.0, ..c.alpha };
-        });
-        let list = constant.pixels(Purpose::Training, 0, 10);
-        assert!(list.alpha().iter().all(|&a| a == 1.0) && list.view_z().iter().all(|&v| v == list.view_z()[0]));
+    fn laws_are_as_frequent_as_their_weights_say() {
+        let mut config = SynthConfig::paper();
+        let law = |n, weight| PixelLaw { weight, fragments: FragmentCount { min: n, max: n, law: CountLaw::Uniform }, ..config.pixels[0] };
+        config.pixels = vec![law(1, 0.5), law(2, 3.0), law(3, 1.5)];
+        let pixels = 20_000;
+        let list = Synth::new(config, 7).unwrap().pixels(Purpose::Training, 0, pixels);
+        for (n, share) in [(1, 0.1), (2, 0.6), (3, 0.3)] {
+            let found = (0..pixels).filter(|&p| list.pixel(p).len() == n).count() as f64 / pixels as f64;
+            assert!((found - share).abs() < 5.0 * (share * (1.0 - share) / pixels as f64).sqrt(), "{n} fragments: {found}");
+        }
     }
 
+    /// No law of the wide distribution leaves the camera's planes, [0, 1] or its own counts; each of them occurs.
     #[test]
-    fn errors_name_the_field() {
-        let error = |change: &dyn Fn(&mut SynthConfig)| {
-            let mut config = SynthConfig::paper();
-            change(&mut config);
-            config.validate().unwrap_err().to_string()
-        };
-        insta::assert_snapshot!(
-            [
-                error(&|c| c.fragments.min = 0),
-                error(&|c| c.fragments.min = 40),
-                error(&|c| c.fragments.max = u32::MAX),
-                error(&|c| (c.depth.min, c.depth.max) = (0.9, 0.2)),
-                error(&|c| c.depth.max = 1.5),
-                error(&|c| c.alpha.min = f64::NAN),
-                error(&|c| c.alpha.max = -0.1),
-            ]
-            .join("\n")
-        );
+    fn the_wide_distribution_is_within_its_ranges() {
+        let config = SynthConfig::wide();
+        for law in &config.pixels {
+            let list = Synth::new(SynthConfig { pixels: vec![*law], ..config.clone() }, 7).unwrap().pixels(Purpose::Training, 0, 300);
+            assert!(list.view_z().iter().all(|v| (0.1..=100.0).contains(v)), "{law:?}");
+            assert!(list.alpha().iter().all(|a| (0.0..=1.0).contains(a)), "{law:?}");
+            assert!((0..list.pixels()).all(|p| (law.fragments.min as usize..=law.fragments.max as usize).contains(&list.pixel(p).len())), "{law:?}");
+        }
+        let list = Synth::new(config, 7).unwrap().pixels(Purpose::Training, 0, 20_000);
+        assert_eq!((0..list.pixels()).map(|p| list.pixel(p).len()).min(), Some(3));
+        assert!(list.depth_complexity() > 250);
     }
 }

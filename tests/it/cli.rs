@@ -13,10 +13,11 @@ const TINY: &str = r#"
 name = "tiny"
 seed = 5
 [synth]
-fragments = { min = 2, max = 8 }
-depth = { min = 0.3, max = 1.0 }
-alpha = { min = 0.1, max = 0.5 }
 camera = { near = 0.1, far = 100.0 }
+[[synth.pixels]]
+fragments = { min = 2, max = 8 }
+depth = { law = "window", min = 0.3, max = 1.0 }
+alpha = { law = "uniform", min = 0.1, max = 0.5 }
 [dataset]
 features = "paper"
 training_pairs = 2000

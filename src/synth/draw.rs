@@ -1,0 +1,655 @@
+//! Drawing pixels from a law.
+//!
+//! Exact arithmetic and `libm` only: the mathematics of the platform would give other bytes on other machines.
+
+use super::config::{AlphaLaw, AlphaReading, CountLaw, DepthLaw, DepthReading, FragmentCount, PixelLaw, Range};
+use crate::numeric::rng::Stream;
+use crate::pixel::{CameraPlanes, LogWarp, MomentDepth, ViewZ, WindowDepth};
+use rand::Rng;
+use rand_distr::{Distribution, Uniform};
+
+/// Most materials that the objects of a pixel are made of.
+const MOST_MATERIALS: usize = 4;
+
+/// Least opacity of a nearly opaque fragment.
+const NEARLY_OPAQUE: f64 = 0.9;
+
+/// Uniform in [0, 1), a multiple of 2^−52.
+pub(super) fn unit(rng: &mut Stream) -> f64 {
+    (rng.next_u64() >> 12) as f64 * (1.0 / (1u64 << 52) as f64)
+}
+
+/// A whole number below n, uniform but for a bias below n/2^32.
+fn below(rng: &mut Stream, n: usize) -> usize {
+    ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
+}
+
+/// Uniform in [min, max].
+fn between(rng: &mut Stream, Range { min, max }: Range) -> f64 {
+    (min + (max - min) * unit(rng)).min(max)
+}
+
+/// The log-uniform law on [min, max]: every octave is as likely as any other.
+#[derive(Debug, Clone, Copy)]
+struct LogUniform {
+    range: Range,
+    ln_min: f64,
+    ln_ratio: f64,
+}
+
+impl LogUniform {
+    fn new(range: Range) -> Self {
+        let ln_min = libm::log(range.min);
+        Self { range, ln_min, ln_ratio: libm::log(range.max) - ln_min }
+    }
+
+    fn draw(&self, rng: &mut Stream) -> f64 {
+        libm::exp(self.ln_min + self.ln_ratio * unit(rng)).clamp(self.range.min, self.range.max)
+    }
+}
+
+/// Standard normal numbers, made two at a time.
+#[derive(Default)]
+struct Normal {
+    spare: Option<f64>,
+}
+
+impl Normal {
+    /// # Source
+    /// Box and Muller, *A note on the generation of random normal deviates*, 1958.
+    fn draw(&mut self, rng: &mut Stream) -> f64 {
+        if let Some(x) = self.spare.take() {
+            return x;
+        }
+        // 1 − u is never 0.
+        let r = (-2.0 * libm::log(1.0 - unit(rng))).sqrt();
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(rng));
+        self.spare = Some(r * sin);
+        r * cos
+    }
+}
+
+/// The gamma law of unit scale.
+struct Gamma {
+    d: f64,
+    c: f64,
+    /// 1/a where the shape a is below 1.
+    boost: Option<f64>,
+}
+
+impl Gamma {
+    fn new(a: f64) -> Self {
+        let d = if a < 1.0 { a + 1.0 } else { a } - 1.0 / 3.0;
+        Self { d, c: 1.0 / (9.0 * d).sqrt(), boost: (a < 1.0).then(|| 1.0 / a) }
+    }
+
+    /// # Source
+    /// Marsaglia and Tsang, *A simple method for generating gamma variables*, 2000; shapes below 1 by their Sec. 6: γ(a) = γ(a + 1) u^(1/a).
+    fn draw(&self, rng: &mut Stream, normal: &mut Normal) -> f64 {
+        let gamma = loop {
+            let x = normal.draw(rng);
+            let v = 1.0 + self.c * x;
+            if v <= 0.0 {
+                continue;
+            }
+            let v = v * v * v;
+            let u = 1.0 - unit(rng);
+            // The first test is cheap and settles most draws.
+            if u < 1.0 - 0.0331 * (x * x) * (x * x) || libm::log(u) < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
+                break self.d * v;
+            }
+        };
+        match self.boost {
+            Some(power) => gamma * libm::exp(power * libm::log(1.0 - unit(rng))),
+            None => gamma,
+        }
+    }
+}
+
+/// Memory that the pixels of one task share.
+#[derive(Default)]
+pub(super) struct Scratch {
+    /// Depth of each fragment of the shape, in about [0, 1].
+    depth: Vec<f64>,
+    /// Object of each fragment: whole numbers from 0.
+    object: Vec<u32>,
+    /// Centre and standard deviation of each cluster.
+    clusters: Vec<(f64, f64)>,
+    /// Opacity of each object, NaN until its first fragment is met.
+    object_alpha: Vec<f32>,
+}
+
+/// One law, with all that its pixels share worked out.
+#[derive(Debug, Clone)]
+pub(super) struct Law {
+    count: Count,
+    depth: Depth,
+    alpha: Alpha,
+}
+
+#[derive(Debug, Clone)]
+enum Count {
+    Uniform(Uniform<u32>),
+    LogUniform { min: u32, max: u32, law: LogUniform },
+}
+
+#[derive(Debug, Clone)]
+enum Depth {
+    Window { law: Uniform<f64>, reading: DepthReading },
+    Moment { shape: Shape, half: LogUniform },
+}
+
+#[derive(Debug, Clone)]
+enum Shape {
+    Uniform,
+    Clustered { clusters: Uniform<u32>, width: LogUniform },
+    Paired { gap: LogUniform },
+    Beta { a: LogUniform, b: LogUniform },
+}
+
+#[derive(Debug, Clone)]
+enum Alpha {
+    Uniform(Uniform<f64>, AlphaReading),
+    LogUniform(LogUniform, AlphaReading),
+    Subrange(Range),
+    NearOpaque { share: Range, low: LogUniform },
+}
+
+fn uniform(min: f64, max: f64) -> Uniform<f64> {
+    Uniform::new_inclusive(min, max).expect("validated: min <= max, both finite")
+}
+
+impl Law {
+    /// Of a validated configuration.
+    pub(super) fn new(config: &PixelLaw) -> Self {
+        Self { count: Count::new(config.fragments), depth: Depth::new(config), alpha: Alpha::new(config.alpha) }
+    }
+
+    /// Appends one pixel.
+    pub(super) fn draw(&self, rng: &mut Stream, camera: &Camera, scratch: &mut Scratch, view_z: &mut Vec<f32>, alpha: &mut Vec<f32>) {
+        let n = self.count.draw(rng);
+        self.depth.draw(rng, n, camera, scratch, view_z);
+        self.alpha.draw(rng, n, scratch, alpha);
+    }
+}
+
+/// From the depths that laws are in to the view depth that fragment lists carry.
+#[derive(Debug, Clone)]
+pub(super) struct Camera {
+    planes: CameraPlanes,
+    warp: LogWarp,
+}
+
+impl Camera {
+    /// Of validated planes.
+    pub(super) fn new(planes: CameraPlanes) -> Self {
+        let [near, far] = [planes.near(), planes.far()].map(|v| ViewZ(v.into()));
+        Self { planes, warp: LogWarp::new(near, far).expect("validated: 0 < near < far") }
+    }
+
+    fn of_window(&self, w: WindowDepth) -> f32 {
+        (self.planes.view_z(w).0 as f32).clamp(self.planes.near(), self.planes.far())
+    }
+
+    fn of_moment(&self, z: MomentDepth) -> f32 {
+        (self.warp.view_z(z).0 as f32).clamp(self.planes.near(), self.planes.far())
+    }
+}
+
+impl Count {
+    fn new(FragmentCount { min, max, law }: FragmentCount) -> Self {
+        match law {
+            CountLaw::Uniform => Self::Uniform(Uniform::new_inclusive(min, max).expect("validated: min <= max")),
+            CountLaw::LogUniform => Self::LogUniform { min, max, law: LogUniform::new(Range { min: min.into(), max: f64::from(max) + 1.0 }) },
+        }
+    }
+
+    fn draw(&self, rng: &mut Stream) -> usize {
+        match self {
+            Self::Uniform(law) => law.sample(rng) as usize,
+            Self::LogUniform { min, max, law } => (law.draw(rng) as u32).clamp(*min, *max) as usize,
+        }
+    }
+}
+
+impl Depth {
+    fn new(config: &PixelLaw) -> Self {
+        let shape = match config.depth {
+            DepthLaw::Window { min, max, reading } => return Self::Window { law: uniform(min, max), reading },
+            DepthLaw::Uniform {} => Shape::Uniform,
+            DepthLaw::Clustered { clusters, width } => Shape::Clustered {
+                clusters: Uniform::new_inclusive(clusters.min, clusters.max).expect("validated: min <= max"),
+                width: LogUniform::new(width),
+            },
+            DepthLaw::Paired { gap } => Shape::Paired { gap: LogUniform::new(gap) },
+            DepthLaw::Beta { a, b } => Shape::Beta { a: LogUniform::new(a), b: LogUniform::new(b) },
+        };
+        Self::Moment { shape, half: LogUniform::new(config.range.expect("validated: laws in moment depth have a range").half) }
+    }
+
+    fn draw(&self, rng: &mut Stream, n: usize, camera: &Camera, scratch: &mut Scratch, view_z: &mut Vec<f32>) {
+        match self {
+            Self::Window { law, reading } => {
+                scratch.object.clear();
+                scratch.object.extend(0..n as u32);
+                draw_window(rng, n, law, *reading, |w| camera.of_window(w), view_z);
+            }
+            Self::Moment { shape, half } => {
+                shape.draw(rng, n, scratch);
+                let half = half.draw(rng);
+                let center = (2.0 * unit(rng) - 1.0) * (1.0 - half);
+                stretch(&mut scratch.depth, center, half);
+                view_z.extend(scratch.depth.iter().map(|&z| camera.of_moment(MomentDepth(z))));
+            }
+        }
+    }
+}
+
+fn draw_window(rng: &mut Stream, n: usize, law: &Uniform<f64>, reading: DepthReading, view: impl Fn(WindowDepth) -> f32, out: &mut Vec<f32>) {
+    let anywhere = uniform(0.0, 1.0);
+    match reading {
+        DepthReading::PerFragment => out.extend((0..n).map(|_| view(WindowDepth(law.sample(rng))))),
+        DepthReading::PixelExtent if n == 1 => out.push(view(WindowDepth(anywhere.sample(rng)))),
+        DepthReading::PixelExtent => {
+            let extent = law.sample(rng);
+            let start = anywhere.sample(rng) * (1.0 - extent);
+            let place = |u: f64| view(WindowDepth((start + u * extent).clamp(0.0, 1.0)));
+            out.extend([0.0, 1.0].map(place));
+            out.extend((2..n).map(|_| place(anywhere.sample(rng))));
+        }
+    }
+}
+
+impl Shape {
+    /// Depths and objects of n fragments.
+    fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch) {
+        let Scratch { depth, object, clusters, .. } = scratch;
+        depth.clear();
+        object.clear();
+        match self {
+            Self::Uniform => depth.extend((0..n).map(|_| unit(rng))),
+            Self::Clustered { clusters: count, width } => {
+                clusters.clear();
+                clusters.extend((0..count.sample(rng)).map(|_| (unit(rng), width.draw(rng))));
+                let mut normal = Normal::default();
+                for _ in 0..n {
+                    let k = below(rng, clusters.len());
+                    let (center, width) = clusters[k];
+                    depth.push(center + width * normal.draw(rng));
+                    object.push(k as u32);
+                }
+                return;
+            }
+            Self::Paired { gap } => {
+                let gap = gap.draw(rng);
+                while depth.len() < n {
+                    let front = unit(rng);
+                    let back = front + gap * unit(rng);
+                    depth.extend([front, back]);
+                }
+                depth.truncate(n);
+                object.extend((0..n as u32).map(|i| i / 2));
+                return;
+            }
+            Self::Beta { a, b } => {
+                let (a, b) = (Gamma::new(a.draw(rng)), Gamma::new(b.draw(rng)));
+                let mut normal = Normal::default();
+                depth.extend((0..n).map(|_| {
+                    let (x, y) = (a.draw(rng, &mut normal), b.draw(rng, &mut normal));
+                    x / (x + y)
+                }));
+            }
+        }
+        object.extend(0..n as u32);
+    }
+}
+
+/// Moves and scales depths until the least is center − half and the greatest is center + half, to the bit. Depths that all tie go to the centre.
+fn stretch(depth: &mut [f64], center: f64, half: f64) {
+    let (lo, hi) = depth.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
+    for x in depth {
+        // Divided, not multiplied by a reciprocal: the farthest must give 1.
+        let place = if lo < hi { (*x - lo) / (hi - lo) } else { 0.5 };
+        *x = center + half * (2.0 * place - 1.0);
+    }
+}
+
+impl Alpha {
+    fn new(law: AlphaLaw) -> Self {
+        match law {
+            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(uniform(min, max), reading),
+            AlphaLaw::LogUniform { min, max, reading } => Self::LogUniform(LogUniform::new(Range { min, max }), reading),
+            AlphaLaw::Subrange { min, max } => Self::Subrange(Range { min, max }),
+            AlphaLaw::NearOpaque { share, low } => Self::NearOpaque { share, low: LogUniform::new(low) },
+        }
+    }
+
+    fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch, out: &mut Vec<f32>) {
+        match self {
+            Self::Uniform(law, reading) => draw_alpha(rng, n, |rng| law.sample(rng), *reading, scratch, out),
+            Self::LogUniform(law, reading) => draw_alpha(rng, n, |rng| law.draw(rng), *reading, scratch, out),
+            Self::Subrange(range) => {
+                let (a, b) = (between(rng, *range), between(rng, *range));
+                let range = Range { min: a.min(b), max: a.max(b) };
+                out.extend((0..n).map(|_| between(rng, range) as f32));
+            }
+            Self::NearOpaque { share, low } => {
+                let (share, low) = (between(rng, *share), low.draw(rng));
+                out.extend((0..n).map(|_| {
+                    let range = if unit(rng) < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
+                    between(rng, range) as f32
+                }));
+            }
+        }
+    }
+}
+
+fn draw_alpha(
+    rng: &mut Stream,
+    n: usize,
+    law: impl Fn(&mut Stream) -> f64,
+    reading: AlphaReading,
+    Scratch { object, object_alpha, .. }: &mut Scratch,
+    out: &mut Vec<f32>,
+) {
+    let draw = |rng: &mut Stream| (law(rng) as f32).clamp(0.0, 1.0);
+    match reading {
+        AlphaReading::PerFragment => out.extend((0..n).map(|_| draw(rng))),
+        AlphaReading::PerPixel => {
+            let alpha = draw(rng);
+            out.extend(std::iter::repeat_n(alpha, n));
+        }
+        AlphaReading::PerObject => {
+            let mut materials = [0.0; MOST_MATERIALS];
+            let materials = &mut materials[..1 + below(rng, MOST_MATERIALS)];
+            materials.fill_with(|| draw(rng));
+            object_alpha.clear();
+            out.extend(object.iter().map(|&o| {
+                let o = o as usize;
+                if object_alpha.len() <= o {
+                    object_alpha.resize(o + 1, f32::NAN);
+                }
+                if object_alpha[o].is_nan() {
+                    object_alpha[o] = materials[below(rng, materials.len())];
+                }
+                object_alpha[o]
+            }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::config::{CountRange, PixelRange, SynthConfig};
+    use super::*;
+    use crate::numeric::rng::stream;
+
+    const DRAWS: usize = 50_000;
+
+    fn rng() -> Stream {
+        stream(7, 0x7e57, 0)
+    }
+
+    fn range(min: f64, max: f64) -> Range {
+        Range { min, max }
+    }
+
+    fn draws(mut draw: impl FnMut(&mut Stream) -> f64) -> Vec<f64> {
+        let mut rng = rng();
+        (0..DRAWS).map(|_| draw(&mut rng)).collect()
+    }
+
+    fn mean(values: &[f64]) -> f64 {
+        values.iter().sum::<f64>() / values.len() as f64
+    }
+
+    /// Whether the mean of `f` over the values is `expected`, within 5 standard errors as the values themselves have them.
+    fn has_mean(values: &[f64], f: impl Fn(f64) -> f64, expected: f64) -> bool {
+        let values: Vec<f64> = values.iter().map(|&x| f(x)).collect();
+        let found = mean(&values);
+        let variance = values.iter().map(|x| (x - found).powi(2)).sum::<f64>() / values.len() as f64;
+        (found - expected).abs() < 5.0 * (variance / values.len() as f64).sqrt()
+    }
+
+    /// Shapes of n fragments each, with the objects of their fragments.
+    fn shapes(depth: DepthLaw, n: usize, count: usize) -> Vec<(Vec<f64>, Vec<u32>)> {
+        let config = PixelLaw { depth, range: Some(PixelRange { half: range(1.0, 1.0) }), ..SynthConfig::paper().pixels[0] };
+        let Depth::Moment { shape, .. } = Depth::new(&config) else { panic!("a law in moment depth") };
+        let (mut rng, mut scratch) = (rng(), Scratch::default());
+        (0..count)
+            .map(|_| {
+                shape.draw(&mut rng, n, &mut scratch);
+                (scratch.depth.clone(), scratch.object.clone())
+            })
+            .collect()
+    }
+
+    /// Opacities of pixels whose fragments 0 and 1 are one object, 2 and 3 the next, and so on.
+    fn alphas(law: AlphaLaw, n: usize, count: usize) -> Vec<Vec<f32>> {
+        let (law, mut rng) = (Alpha::new(law), rng());
+        let mut scratch = Scratch { object: (0..n as u32).map(|i| i / 2).collect(), ..Scratch::default() };
+        (0..count)
+            .map(|_| {
+                let mut out = Vec::new();
+                law.draw(&mut rng, n, &mut scratch, &mut out);
+                out
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_basic_laws() {
+        let u = draws(unit);
+        assert!(u.iter().all(|u| (0.0..1.0).contains(u)));
+        assert!(has_mean(&u, |u| u, 0.5) && has_mean(&u, |u| u * u, 1.0 / 3.0));
+        // Control: the tolerance is narrower than a hundredth.
+        assert!(!has_mean(&u, |u| u, 0.51));
+        let k = draws(|rng| below(rng, 5) as f64);
+        assert!((0..5).all(|i| has_mean(&k, |k| f64::from(u8::from(k == f64::from(i))), 0.2)));
+        let log = draws(|rng| LogUniform::new(range(1e-3, 10.0)).draw(rng));
+        assert!(log.iter().all(|x| (1e-3..=10.0).contains(x)));
+        assert!(has_mean(&log, f64::log10, -1.0) && has_mean(&log, |x| x, (10.0 - 1e-3) / 1e4f64.ln()));
+        let mut normal = Normal::default();
+        let x = draws(|rng| normal.draw(rng));
+        let inside = |x: f64| f64::from(u8::from(x.abs() < 1.0));
+        assert!(has_mean(&x, |x| x, 0.0) && has_mean(&x, |x| x * x, 1.0) && has_mean(&x, |x| x.powi(4), 3.0) && has_mean(&x, inside, 0.682_689_5));
+        // Those of one pair are independent.
+        let products: Vec<f64> = x.chunks_exact(2).map(|x| x[0] * x[1]).collect();
+        assert!(has_mean(&products, |p| p, 0.0));
+    }
+
+    /// Of a gamma variable, mean and variance are both a, and the mean of its logarithm is ψ(a).
+    #[test]
+    fn the_gamma_law() {
+        for (a, digamma) in [(0.3, -3.502_524_222), (1.0, -0.577_215_665), (5.0, 1.506_117_668)] {
+            let (gamma, mut normal) = (Gamma::new(a), Normal::default());
+            let x = draws(|rng| gamma.draw(rng, &mut normal));
+            assert!(x.iter().all(|&x| x > 0.0));
+            assert!(has_mean(&x, |x| x, a) && has_mean(&x, |x| (x - a).powi(2), a) && has_mean(&x, f64::ln, digamma), "a = {a}");
+        }
+    }
+
+    #[test]
+    fn counts() {
+        let config = |min, max| FragmentCount { min, max, law: CountLaw::LogUniform };
+        let law = Count::new(config(3, 256));
+        let n = draws(|rng| law.draw(rng) as f64);
+        assert!(n.iter().all(|n| (3.0..=256.0).contains(n)));
+        assert!(n.contains(&3.0) && n.contains(&256.0));
+        // P(n) = ln((n + 1)/n)/ln(257/3).
+        for k in [3.0f64, 10.0, 255.0] {
+            assert!(has_mean(&n, |n| f64::from(u8::from(n == k)), ((k + 1.0) / k).ln() / (257f64 / 3.0).ln()), "{k}");
+        }
+        let law = Count::new(config(7, 7));
+        assert!(draws(|rng| law.draw(rng) as f64).iter().all(|&n| n == 7.0));
+    }
+
+    #[test]
+    fn uniform_and_beta_shapes() {
+        let depths = |law| shapes(law, 8, DRAWS / 8).into_iter().flat_map(|(depth, _)| depth).collect::<Vec<f64>>();
+        let x = depths(DepthLaw::Uniform {});
+        assert!(has_mean(&x, |x| x, 0.5) && has_mean(&x, |x| x * x, 1.0 / 3.0));
+        for (a, b) in [(0.3, 0.3), (0.5, 4.0), (5.0, 2.0), (0.1, 0.1)] {
+            let x = depths(DepthLaw::Beta { a: range(a, a), b: range(b, b) });
+            assert!(x.iter().all(|x| (0.0..=1.0).contains(x)));
+            let m = a / (a + b);
+            assert!(has_mean(&x, |x| x, m) && has_mean(&x, |x| (x - m).powi(2), a * b / ((a + b).powi(2) * (a + b + 1.0))), "a = {a}, b = {b}");
+        }
+        // Fragments that stand alone are objects of their own.
+        assert!(shapes(DepthLaw::Uniform {}, 5, 1)[0].1.iter().eq(&[0, 1, 2, 3, 4]));
+    }
+
+    #[test]
+    fn clusters() {
+        let law = |min, max, width| DepthLaw::Clustered { clusters: CountRange { min, max }, width };
+        // One cluster of a known width: the variance is its square. Tolerance: 5 standard errors, sqrt(2/n) relative.
+        let (x, object) = shapes(law(1, 1, range(0.05, 0.05)), DRAWS, 1).remove(0);
+        let center = mean(&x);
+        assert!(has_mean(&x, |x| (x - center).powi(2), 0.05f64.powi(2)) && object.iter().all(|&o| o == 0));
+        // Narrow clusters: as many places as objects, and fragments of one object close together.
+        for (depth, object) in shapes(law(2, 6, range(1e-6, 1e-5)), 200, 200) {
+            let clusters = *object.iter().max().unwrap() + 1;
+            assert!((2..=6).contains(&clusters));
+            for (x, o) in depth.iter().zip(&object) {
+                let first = object.iter().position(|p| p == o).unwrap();
+                assert!((x - depth[first]).abs() < 1e-4);
+            }
+        }
+        let wide = shapes(law(1, 6, range(1e-3, 0.3)), 2, 50_000);
+        // A fragment's mean is that of the centres, wherever its cluster lies.
+        assert!(has_mean(&wide.iter().map(|(x, _)| x[0]).collect::<Vec<_>>(), |x| x, 0.5));
+    }
+
+    #[test]
+    fn pairs() {
+        for (depth, object) in shapes(DepthLaw::Paired { gap: range(0.01, 0.1) }, 7, 2000) {
+            assert_eq!(depth.len(), 7);
+            assert_eq!(object, [0, 0, 1, 1, 2, 2, 3]);
+            assert!(depth.chunks(2).all(|pair| (0.0..1.0).contains(&pair[0]) && pair.len() == 1 || (0.0..=0.1).contains(&(pair[1] - pair[0]))));
+        }
+        // Each surface's gap is uniform below the pixel's: half of it on average.
+        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(0.2, 0.2) }, 2, DRAWS).iter().map(|(x, _)| x[1] - x[0]).collect();
+        assert!(has_mean(&gaps, |g| g, 0.1));
+        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(1e-3, 1.0) }, 2, DRAWS).iter().map(|(x, _)| x[1] - x[0]).collect();
+        assert!(has_mean(&gaps, |g| g, 0.5 * (1.0 - 1e-3) / 1e3f64.ln()));
+    }
+
+    #[test]
+    fn stretched_extremes_are_exactly_at_the_ends() {
+        let mut rng = rng();
+        for _ in 0..1000 {
+            let mut x: Vec<f64> = (0..2 + below(&mut rng, 30)).map(|_| 3.0 * unit(&mut rng) - 1.0).collect();
+            let half = LogUniform::new(range(1e-4, 1.0)).draw(&mut rng);
+            let center = (2.0 * unit(&mut rng) - 1.0) * (1.0 - half);
+            let order = |x: &[f64]| {
+                let mut order: Vec<usize> = (0..x.len()).collect();
+                order.sort_by(|&i, &j| x[i].total_cmp(&x[j]));
+                order
+            };
+            let before = order(&x);
+            stretch(&mut x, center, half);
+            assert_eq!(order(&x), before);
+            assert_eq!((x[before[0]], x[before[before.len() - 1]]), (center - half, center + half));
+        }
+        for ties in [&mut [0.3][..], &mut [0.3, 0.3]] {
+            stretch(ties, 0.25, 0.5);
+            assert!(ties.iter().all(|&x| x == 0.25));
+        }
+    }
+
+    /// The ends of drawn pixels, read back from their view depths: half the range and the centre follow their laws.
+    #[test]
+    fn ranges_of_pixels() {
+        let half = range(0.02, 0.5);
+        let law = PixelLaw { depth: DepthLaw::Uniform {}, range: Some(PixelRange { half }), ..SynthConfig::paper().pixels[0] };
+        let planes = SynthConfig::paper().camera;
+        let (law, camera, mut rng, mut scratch) = (Law::new(&law), Camera::new(planes), rng(), Scratch::default());
+        let (mut halves, mut centers) = (Vec::new(), Vec::new());
+        for _ in 0..10_000 {
+            let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
+            law.draw(&mut rng, &camera, &mut scratch, &mut view_z, &mut alpha);
+            assert!(view_z.iter().all(|v| (0.1..=100.0).contains(v)));
+            let z: Vec<f64> = view_z.iter().map(|&v| camera.warp.moment(ViewZ(v.into())).0).collect();
+            let (lo, hi) = z.iter().fold((1.0f64, -1.0f64), |(lo, hi), &z| (lo.min(z), hi.max(z)));
+            let h = 0.5 * (hi - lo);
+            // View depths are f32: 6e-8 relative is 2e-8 in moment depth.
+            assert!((0.02 - 1e-7..=0.5 + 1e-7).contains(&h));
+            halves.push(h);
+            centers.push(0.5 * (hi + lo) / (1.0 - h));
+        }
+        assert!(has_mean(&halves, f64::ln, 0.5 * (0.02f64.ln() + 0.5f64.ln())));
+        assert!(has_mean(&centers, |c| c, 0.0) && has_mean(&centers, |c| c * c, 1.0 / 3.0));
+        assert!(centers.iter().all(|c| c.abs() < 1.0 + 1e-6));
+    }
+
+    #[test]
+    fn alpha_readings() {
+        for (law, log_mean) in [
+            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerFragment }, Some(-1.0)),
+            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerPixel }, Some(-1.0)),
+            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerObject }, Some(-1.0)),
+            (AlphaLaw::Uniform { min: 0.01, max: 1.0, reading: AlphaReading::PerObject }, None),
+        ] {
+            let pixels = alphas(law, 20, 10_000);
+            // One fragment a pixel, so that the numbers are independent.
+            let first: Vec<f64> = pixels.iter().map(|a| a[0].into()).collect();
+            match log_mean {
+                Some(expected) => assert!(has_mean(&first, f64::log10, expected), "{law:?}"),
+                None => assert!(has_mean(&first, |a| a, 0.505), "{law:?}"),
+            }
+            let values: Vec<usize> = pixels.iter().map(|a| a.iter().map(|a| a.to_bits()).collect::<std::collections::HashSet<_>>().len()).collect();
+            match law {
+                AlphaLaw::Uniform { reading: AlphaReading::PerObject, .. } | AlphaLaw::LogUniform { reading: AlphaReading::PerObject, .. } => {
+                    assert!(pixels.iter().all(|a| a.chunks(2).all(|object| object[0] == object[1])));
+                    assert!((1..=4).all(|n| values.contains(&n)) && values.iter().all(|n| (1..=4).contains(n)));
+                }
+                AlphaLaw::LogUniform { reading: AlphaReading::PerPixel, .. } => assert!(values.iter().all(|&n| n == 1)),
+                _ => assert!(values.iter().all(|&n| n > 15)),
+            }
+        }
+    }
+
+    #[test]
+    fn subranges_and_near_opaque() {
+        let pixels = alphas(AlphaLaw::Subrange { min: 0.2, max: 0.8 }, 100, 4000);
+        assert!(pixels.iter().flatten().all(|a| (0.2..=0.8).contains(a)));
+        assert!(has_mean(&pixels.iter().map(|a| a[0].into()).collect::<Vec<_>>(), |a| a, 0.5));
+        let extents: Vec<f64> =
+            pixels.iter().map(|a| f64::from(a.iter().copied().fold(0.0, f32::max) - a.iter().copied().fold(1.0, f32::min))).collect();
+        // The two ends are 0.6/3 apart on average; the extremes of 100 draws reach 99/101 of that.
+        assert!(has_mean(&extents, |e| e, 0.2 * 99.0 / 101.0));
+
+        let (share, low) = (range(0.1, 0.5), range(0.01, 0.3));
+        let pixels = alphas(AlphaLaw::NearOpaque { share, low }, 200, 4000);
+        assert!(pixels.iter().flatten().all(|a| (0.0..=0.3).contains(a) || (0.9..=1.0).contains(a)));
+        let shares: Vec<f64> = pixels.iter().map(|a| a.iter().filter(|&&a| a >= 0.9).count() as f64 / 200.0).collect();
+        assert!(has_mean(&shares, |s| s, 0.3));
+        // Shares differ between pixels: the variance is that of the uniform law and of 200 fragments' binomial law.
+        assert!(has_mean(&shares, |s| (s - 0.3).powi(2), 0.16 / 12.0 + (0.3 * 0.7 - 0.16 / 12.0) / 200.0));
+    }
+
+    #[test]
+    fn degenerate_ranges_are_exact() {
+        let constant = alphas(AlphaLaw::LogUniform { min: 0.3, max: 0.3, reading: AlphaReading::PerFragment }, 5, 100);
+        assert!(constant.iter().flatten().all(|&a| a == 0.3));
+        let none = alphas(AlphaLaw::NearOpaque { share: range(0.0, 0.0), low: range(1.0, 1.0) }, 5, 100);
+        assert!(none.iter().flatten().any(|&a| a < 0.9));
+        let all = alphas(AlphaLaw::NearOpaque { share: range(1.0, 1.0), low: range(0.1, 0.1) }, 5, 100);
+        assert!(all.iter().flatten().all(|a| (0.9..=1.0).contains(a)));
+        let opaque = alphas(AlphaLaw::Subrange { min: 1.0, max: 1.0 }, 5, 100);
+        assert!(opaque.iter().flatten().all(|&a| a == 1.0));
+        // The whole range: every pixel's ends are the planes themselves. A single fragment lies halfway between them.
+        let law = |n| {
+            let config = SynthConfig::paper().pixels[0];
+            let fragments = FragmentCount { min: n, max: n, law: CountLaw::LogUniform };
+            Law::new(&PixelLaw { fragments, depth: DepthLaw::Uniform {}, range: Some(PixelRange { half: range(1.0, 1.0) }), ..config })
+        };
+        let (camera, mut rng, mut scratch) = (Camera::new(CameraPlanes::new(1.0, 16.0).unwrap()), rng(), Scratch::default());
+        let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
+        law(4).draw(&mut rng, &camera, &mut scratch, &mut view_z, &mut alpha);
+        assert_eq!(view_z.iter().copied().fold(f32::MAX, f32::min), 1.0);
+        assert_eq!(view_z.iter().copied().fold(0.0, f32::max), 16.0);
+        law(1).draw(&mut rng, &camera, &mut scratch, &mut view_z, &mut alpha);
+        assert_eq!((view_z[4], view_z.len(), alpha.len()), (4.0, 5, 5));
+    }
+}
