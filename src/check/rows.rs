@@ -1,7 +1,7 @@
 //! Feature rows that exports are checked on: as the network was trained on, and far beyond.
 
 use crate::dataset::build::pixels_holding;
-use crate::features::Extractor;
+use crate::features::{Extractor, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::rng::stream;
 use crate::synth::{Purpose, Synth, SynthConfig};
@@ -47,15 +47,18 @@ impl RowKind {
 pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
     let synth = match mlp.provenance.config.as_ref().and_then(|c| c.get("synth")) {
         Some(synth) => serde_json::from_value(synth.clone()).map_err(|e| format!("provenance.config.synth: {e}"))?,
+        None if mlp.feature_set().moment_depth() == MomentDepthKind::Log => SynthConfig::wide(),
         None => SynthConfig::paper(),
     };
     let camera = synth.camera;
+    // Moment depth of random pixels is that of their camera, as it was in training.
+    let depth_range = (mlp.feature_set().moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
     let source = Synth::new(synth, SEED).map_err(|e| format!("provenance.config: {e}"))?;
     // Some fragments need no network, and give no row.
     let mut fragments = count as u64;
     let mut features = loop {
         let list = pixels_holding(&source, Purpose::Evaluation, fragments, &|_| {});
-        let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), None).map_err(|e| e.to_string())?;
+        let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), depth_range).map_err(|e| e.to_string())?;
         let features = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?.features;
         if features.len() >= count * mlp.feature_set().width() {
             break features;

@@ -7,7 +7,8 @@ use crate::synth::SynthConfig;
 use crate::train::TrainConfig;
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
 
 /// What a configuration file says: all that decides a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,6 +24,29 @@ pub struct Config {
     pub evaluate: EvaluateConfig,
 }
 
+/// What a file says of itself.
+#[derive(Deserialize)]
+struct Head {
+    /// A file beside it, whose every value holds that this one does not give.
+    extends: Option<PathBuf>,
+}
+
+fn text_of(path: &Path) -> anyhow::Result<String> {
+    String::from_utf8(read(path)?).with_context(|| format!("{}: not a text file", path.display()))
+}
+
+/// Puts values over others; tables are merged, everything else is replaced.
+fn merge(base: &mut Table, changes: Table) {
+    for (key, value) in changes {
+        match (base.get_mut(&key), value) {
+            (Some(Value::Table(base)), Value::Table(changes)) => merge(base, changes),
+            (_, value) => {
+                base.insert(key, value);
+            }
+        }
+    }
+}
+
 /// How the final error is measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -32,11 +56,26 @@ pub struct EvaluateConfig {
 }
 
 impl Config {
-    /// Reads and validates a file.
+    /// Reads and validates a file, and the one that it extends.
     pub fn load(path: &Path) -> anyhow::Result<Self> {
-        let bytes = read(path)?;
-        let text = std::str::from_utf8(&bytes).with_context(|| format!("{}: not a text file", path.display()))?;
-        let config: Self = toml::from_str(text).map_err(|e| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end()))?;
+        let wrong = |path: &Path, e: toml::de::Error| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end());
+        let text = text_of(path)?;
+        let head: Head = toml::from_str(&text).map_err(|e| wrong(path, e))?;
+        let config: Self = match head.extends {
+            // Straight from the text, so that errors show the place.
+            None => toml::from_str(&text).map_err(|e| wrong(path, e))?,
+            Some(base) => {
+                let base = path.with_file_name(base);
+                let mut whole: Table = toml::from_str(&text_of(&base)?).map_err(|e| wrong(&base, e))?;
+                if whole.contains_key("extends") {
+                    bail!("{}: extends another file itself; only one step is followed", base.display());
+                }
+                let mut changes: Table = toml::from_str(&text).map_err(|e| wrong(path, e))?;
+                changes.remove("extends");
+                merge(&mut whole, changes);
+                whole.try_into().map_err(|e| wrong(path, e))?
+            }
+        };
         config.validate().with_context(|| path.display().to_string())?;
         Ok(config)
     }

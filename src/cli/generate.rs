@@ -43,15 +43,12 @@ impl Generate {
             may_write(path, replace)?;
         }
         let start = Instant::now();
-        let (dataset, pixels) = if self.from.is_empty() {
-            let (dataset, pixels) = build(&config, ui)?;
-            (dataset, Some(pixels))
-        } else {
-            (self.build_from_scenes(&config)?, None)
-        };
+        let dataset = if self.from.is_empty() { build(&config, ui)? } else { self.build_from_scenes(&config)? };
         let seconds = start.elapsed().as_secs_f64();
         file::write(&self.out, replace, &dataset)?;
-        if let (Some(path), Some([training, validation])) = (&self.fragments, pixels) {
+        if let Some(path) = &self.fragments
+            && let Some([training, validation]) = dataset::pixels_of(&dataset.manifest)?
+        {
             npz::write(path, replace, &training.followed_by(&validation))?;
         }
         let pairs = dataset.training.len() + dataset.validation.len();
@@ -83,8 +80,8 @@ impl Generate {
     }
 }
 
-/// The dataset of a configuration, and its pixels.
-pub fn build(config: &Config, ui: &Ui) -> anyhow::Result<(Dataset, [FragmentList; 2])> {
+/// The dataset of a configuration.
+pub fn build(config: &Config, ui: &Ui) -> anyhow::Result<Dataset> {
     let progress = ui.progress("generate", config.dataset.training_pairs + config.dataset.validation_pairs);
     let built = dataset::build(&config.name, config.seed, &config.synth, &config.dataset, &|n| progress.set(n, "pairs"));
     progress.finish();

@@ -53,7 +53,7 @@ impl Run {
 
         let stages = ui.stage();
         let start = Instant::now();
-        let (dataset, _) = generate::build(&config, &stages)?;
+        let dataset = generate::build(&config, &stages)?;
         dataset_file::write(&dataset_folder, Replace::Yes, &dataset)?;
         let generated = start.elapsed().as_secs_f64();
 

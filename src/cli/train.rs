@@ -112,7 +112,7 @@ impl Train {
                 }
                 dataset
             }
-            None => generate::build(&config, ui)?.0,
+            None => generate::build(&config, ui)?,
         };
         let Some(trained) = fit(&config, &dataset, &self.options, &checkpoint, ui)? else {
             return Ok(Verdict::Interrupted);

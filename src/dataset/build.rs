@@ -188,7 +188,7 @@ impl RowStream {
         while out.len() < pairs {
             let list = self.source.pixels(self.purpose, self.next, CHUNK);
             let tasks = (0..CHUNK / TASK).into_par_iter();
-            let parts: Vec<(Sampled, Vec<u32>)> = tasks.map(|task| self.rows_of(&list, task * TASK..(task + 1) * TASK)).collect::<Result<_, _>>()?;
+            let parts: Vec<(Sampled, Vec<u32>)> = tasks.map(|task| self.rows_of(&list, task * TASK..(task + 1) * TASK)).collect();
             'chunk: for (task, (part, counts)) in parts.into_iter().enumerate() {
                 let mut at = 0;
                 for (i, n) in counts.into_iter().enumerate() {
@@ -221,17 +221,17 @@ impl RowStream {
     }
 
     /// Rows of some pixels of a list that starts at the stream's next pixel, and how many of each pixel.
-    fn rows_of(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<(Sampled, Vec<u32>), DepthError> {
+    fn rows_of(&self, list: &FragmentList, range: std::ops::Range<usize>) -> (Sampled, Vec<u32>) {
         let most = if self.config.rows_per_pixel == 0 { usize::MAX } else { self.config.rows_per_pixel as usize };
         let mut rows = Sampled::default();
         let counts = range
             .map(|p| {
                 let mut rng = stream(self.seed, CHOICE_PURPOSE, self.next + p as u64);
-                self.extractor.sample(list.pixel(p), most, &mut rng, &mut rows)?;
-                Ok(rows.of_pixel as u32)
+                self.extractor.sample(list.pixel(p), most, &mut rng, &mut rows);
+                rows.of_pixel as u32
             })
-            .collect::<Result<_, DepthError>>()?;
-        Ok((rows, counts))
+            .collect();
+        (rows, counts)
     }
 }
 
@@ -254,35 +254,27 @@ pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dy
     FragmentList::new(offsets, view_z, alpha, None).expect("made of valid pixels").with_planes(synth.config().camera)
 }
 
-/// Builds a dataset and returns it with the pixels that it was made of: training pixels, validation pixels.
+/// Builds a dataset of random pixels.
 ///
 /// # Errors
 /// [`DatasetError`] names the field that is wrong.
-pub fn build(
-    name: &str,
-    seed: u64,
-    synth: &SynthConfig,
-    config: &DatasetConfig,
-    progress: &dyn Fn(u64),
-) -> Result<(Dataset, [FragmentList; 2]), DatasetError> {
+pub fn build(name: &str, seed: u64, synth: &SynthConfig, config: &DatasetConfig, progress: &dyn Fn(u64)) -> Result<Dataset, DatasetError> {
     config.validate()?;
-    let source = Synth::new(synth.clone(), seed)?;
     if config.features.moment_depth() == MomentDepthKind::Log {
-        let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, FragmentList), DatasetError> {
+        let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, usize), DatasetError> {
             let mut stream = RowStream::new(seed, synth, config, purpose)?;
             let rows = stream.take(pairs as usize, &|n| progress(before + n))?;
-            Ok((rows, source.pixels(purpose, 0, stream.position() as usize)))
+            Ok((rows, stream.position() as usize))
         };
-        let (training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
+        let (mut training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
         let (mut validation, validation_pixels) = part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
+        normalise(&mut training.weights);
         // What is chosen by is the plain mean over rows, whatever training weighs.
         validation.weights.clear();
-        let mut training = training;
-        normalise(&mut training.weights);
-        let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
-        let dataset = dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels);
-        return Ok((dataset, [training_pixels, validation_pixels]));
+        let pixels = [training_pixels, validation_pixels];
+        return Ok(dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels));
     }
+    let source = Synth::new(synth.clone(), seed)?;
     let training_pixels = pixels_holding(&source, Purpose::Training, config.training_pairs, progress);
     let made = training_pixels.len() as u64;
     let validation_pixels = pixels_holding(&source, Purpose::Validation, config.validation_pairs, &|n| progress(made + n));
@@ -291,7 +283,18 @@ pub fn build(
     let training = rows(&training_pixels, &extractor)?;
     let validation = rows(&validation_pixels, &extractor)?;
     let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
-    Ok((dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels), [training_pixels, validation_pixels]))
+    Ok(dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels))
+}
+
+/// The random pixels that a dataset was made of, drawn again: training pixels, validation pixels; none where they are not random.
+///
+/// # Errors
+/// [`DatasetError::Synth`] where the manifest's distribution is invalid.
+pub fn pixels_of(manifest: &Manifest) -> Result<Option<[FragmentList; 2]>, DatasetError> {
+    let Some(synth) = &manifest.synth else { return Ok(None) };
+    let source = Synth::new(synth.clone(), manifest.seed)?;
+    let part = |purpose, part: &Part| source.pixels(purpose, 0, part.pixels);
+    Ok(Some([part(Purpose::Training, &manifest.training), part(Purpose::Validation, &manifest.validation)]))
 }
 
 /// Scales weights to a mean of 1.
@@ -420,9 +423,14 @@ pub(crate) mod tests {
         }
     }
 
+    fn with_pixels(dataset: Dataset) -> (Dataset, [FragmentList; 2]) {
+        let pixels = pixels_of(&dataset.manifest).unwrap().unwrap();
+        (dataset, pixels)
+    }
+
     pub(crate) fn small() -> (Dataset, [FragmentList; 2]) {
         let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 3000, validation_pairs: 500, ..sizes() };
-        build("small", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap()
+        with_pixels(build("small", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap())
     }
 
     #[test]
@@ -474,7 +482,7 @@ pub(crate) mod tests {
 
     #[test]
     fn the_target_depends_on_the_feature_set() {
-        let (dataset, [training, _]) = build("deep", 3, &SynthConfig::paper(), &deep(), &|_| {}).unwrap();
+        let (dataset, [training, _]) = with_pixels(build("deep", 3, &SynthConfig::paper(), &deep(), &|_| {}).unwrap());
         let exact = abuffer::list_front_to_back_factor(&training);
         assert!(exact.iter().zip(&dataset.training.targets).all(|(&e, &t)| e as f32 == t));
         assert_eq!(dataset.manifest.target, "front-to-back-factor");
@@ -538,5 +546,18 @@ pub(crate) mod tests {
         assert_eq!(error.to_string(), "dataset.training_pairs = 0: must be from 1 to 1073741824");
         config.training_pairs = u64::MAX;
         assert!(config.validate().is_err());
+    }
+
+    /// Bytes of sampled rows, the same at every SIMD level and on every machine.
+    #[test]
+    fn bytes_of_sampled_rows_are_pinned() {
+        let hash = |features: FeatureSet| {
+            let config = DatasetConfig { features, rows_per_pixel: 4, ..sizes() };
+            let synth = if features == FeatureSet::Paper { SynthConfig::paper() } else { SynthConfig::wide() };
+            let rows = RowStream::new(7, &synth, &config, Purpose::Training).unwrap().take(2000, &|_| {}).unwrap();
+            let bytes: Vec<u8> = rows.features.iter().chain(&rows.targets).flat_map(|v| v.to_le_bytes()).collect();
+            crate::numeric::digest::sha256_hex([bytes.as_slice()])
+        };
+        insta::assert_snapshot!(format!("{}\n{}", hash(FeatureSet::Paper), hash(FeatureSet::Recentred6)));
     }
 }

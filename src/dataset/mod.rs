@@ -5,7 +5,7 @@ pub mod build;
 pub mod file;
 
 pub use blocks::{Batch, Blocks};
-pub use build::{DatasetConfig, DatasetError, build, build_from_lists};
+pub use build::{DatasetConfig, DatasetError, build, build_from_lists, pixels_of};
 
 use crate::features::FeatureSet;
 

@@ -4,10 +4,14 @@ pub mod deep_weighted_blended;
 pub mod paper;
 pub mod recentred;
 
+use crate::numeric::lanes::{self, LANES, Lanes};
 use crate::numeric::quantise::round_f16;
 use crate::numeric::rng::Stream;
+use crate::pixel::absorbance_lanes;
 use crate::pixel::{CameraPlanes, DepthError, FragmentList, LogWarp, Pixel, ViewZ, absorbance, abuffer};
 use deep_weighted_blended::LinearRange;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
 use recentred::{Known, PixelSums, Seen};
 use serde::{Deserialize, Serialize};
@@ -221,10 +225,84 @@ pub struct Sampled {
     pub alpha: Vec<f32>,
     /// Rows of the last pixel.
     pub of_pixel: usize,
-    seen: Vec<Seen<f32>>,
+    /// View depths of the pixel's fragments; beyond the last, infinity.
+    view_z: Vec<Lanes>,
+    /// Opacities; beyond the last, 0.
+    alpha_lanes: Vec<Lanes>,
+    /// Depths of the feature set's kind.
+    depth: Vec<Lanes>,
+    absorbance: Vec<Lanes>,
     order: Vec<u32>,
-    whole: Vec<f32>,
-    absorbances: Vec<f64>,
+}
+
+impl Sampled {
+    /// Fills the lanes with a pixel: `to_depth` takes view depths to those that the feature set measures.
+    fn see(&mut self, pixel: Pixel<'_>, to_depth: &impl ToDepth) {
+        let n = pixel.len().div_ceil(LANES);
+        for (lanes, values, rest) in [(&mut self.view_z, pixel.view_z, f32::INFINITY), (&mut self.alpha_lanes, pixel.alpha, 0.0)] {
+            lanes.clear();
+            lanes.extend(values.chunks(LANES).map(|chunk| {
+                let mut out = [rest; LANES];
+                out[..chunk.len()].copy_from_slice(chunk);
+                Lanes(out)
+            }));
+        }
+        self.depth.resize(n, Lanes::ZERO);
+        self.absorbance.resize(n, Lanes::ZERO);
+        let Self { view_z, alpha_lanes, depth, absorbance, .. } = self;
+        dispatch!(Level::new(), simd => see_lanes(simd, to_depth, view_z, alpha_lanes, depth, absorbance));
+    }
+}
+
+/// From view depth to another, sixteen at once.
+trait ToDepth {
+    /// Depths of these view depths; of what is not finite, anything.
+    fn lanes<S: Simd>(&self, simd: S, view_z: f32x16<S>) -> f32x16<S>;
+}
+
+/// Moment depth.
+impl ToDepth for LogWarp {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view_z: f32x16<S>) -> f32x16<S> {
+        self.moment_lanes(simd, view_z)
+    }
+}
+
+/// Window depth.
+impl ToDepth for CameraPlanes {
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, view_z: f32x16<S>) -> f32x16<S> {
+        self.window_lanes(simd, view_z)
+    }
+}
+
+#[inline(always)]
+fn see_lanes<S: Simd>(simd: S, to_depth: &impl ToDepth, view_z: &[Lanes], alpha: &[Lanes], depth: &mut [Lanes], absorbance: &mut [Lanes]) {
+    for (((v, a), z), out) in view_z.iter().zip(alpha).zip(depth).zip(absorbance) {
+        z.store(to_depth.lanes(simd, v.load(simd)));
+        out.store(absorbance_lanes(simd, a.load(simd)));
+    }
+}
+
+/// Absorbance in front of a view depth. The sum runs over the lanes first, in the same order at every SIMD level.
+fn in_front(view_z: &[Lanes], absorbance: &[Lanes], before: f32) -> f32 {
+    let mut sums = [0.0f32; LANES];
+    for (v, a) in view_z.iter().zip(absorbance) {
+        for (sum, (&v, &a)) in sums.iter_mut().zip(v.0.iter().zip(&a.0)) {
+            *sum += if v < before { a } else { 0.0 };
+        }
+    }
+    sums.iter().sum()
+}
+
+/// e^−x of every number.
+fn exp_of_minus(values: &mut [f32]) {
+    for chunk in values.chunks_mut(LANES) {
+        let mut lanes = Lanes::ZERO;
+        lanes.0[..chunk.len()].copy_from_slice(chunk);
+        dispatch!(Level::new(), simd => lanes.store(lanes::exp(simd, -lanes.load(simd))));
+        chunk.copy_from_slice(&lanes.0[..chunk.len()]);
+    }
 }
 
 /// What a feature set says of some fragments.
@@ -309,18 +387,7 @@ impl Extractor {
         let mut ends = [0.0; 2];
         for (&view_z, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
             let one = Seen { view_z, z: warp.moment(ViewZ(view_z.into())).0 as f32, absorbance: absorbance(alpha) as f32 };
-            sums.add(one);
-            if sums.nearest == view_z {
-                ends[0] = one.z;
-            }
-            if sums.farthest == view_z {
-                ends[1] = one.z;
-            }
-            if self.storage.rounds() {
-                let round = |x: f32| round_f16(x.into()) as f32;
-                sums.b0 = round(sums.b0);
-                sums.b = sums.b.map(round);
-            }
+            self.add(&mut sums, &mut ends, one);
             seen.push(one);
         }
         (sums, ends)
@@ -348,49 +415,56 @@ impl Extractor {
 
     /// Appends rows of at most `most` fragments of a pixel that the network is asked about, chosen at random: features, and the exact transmittance.
     ///
-    /// # Errors
-    /// As [`Self::pixel`].
+    /// The arithmetic is f32 throughout, multiplications and additions apart, so that rows are the same on every machine; they differ from those of
+    /// [`Self::pixel`] by rounding (`sampled_rows_are_those_of_whole_pixels`).
     ///
     /// # Panics
     /// If the set is not trained on transmittances.
-    pub fn sample(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) -> Result<(), DepthError> {
+    pub fn sample(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) {
         assert_eq!(self.set.target(), Target::Transmittance, "rows are answered with transmittances");
         match (self.kind, self.set.moments()) {
             (Kind::Recentred(warp), 4) => self.sample_of::<4>(pixel, warp, most, rng, rows),
             (Kind::Recentred(warp), 6) => self.sample_of::<6>(pixel, warp, most, rng, rows),
             (Kind::Recentred(warp), _) => self.sample_of::<8>(pixel, warp, most, rng, rows),
-            _ => return self.sample_all(pixel, most, rng, rows),
+            (Kind::Paper(planes), _) => self.sample_paper(pixel, planes, most, rng, rows),
+            (Kind::DeepWeightedBlended(_), _) => unreachable!("it is not trained on transmittances"),
         }
-        Ok(())
     }
 
-    /// [`Self::sample`] of a set that asks the network about every fragment.
-    fn sample_all(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) -> Result<(), DepthError> {
-        let (n, width) = (pixel.len(), self.set.width());
-        rows.whole.resize(n * (width + 1), 0.0);
-        self.pixel(pixel, &mut rows.whole)?;
+    /// [`Self::sample`] of the paper's features, which ask the network about every fragment.
+    fn sample_paper(&self, pixel: Pixel<'_>, planes: CameraPlanes, most: usize, rng: &mut Stream, rows: &mut Sampled) {
+        let n = pixel.len();
+        rows.see(pixel, &planes);
+        rows.of_pixel = n.min(most);
         rows.order.clear();
         rows.order.extend(0..n as u32);
-        rows.of_pixel = n.min(most);
-        rows.absorbances.clear();
-        rows.absorbances.extend(pixel.alpha.iter().map(|&a| absorbance(a)));
-        for i in 0..rows.of_pixel {
+        let Sampled { view_z, alpha_lanes, depth, absorbance, order, features, targets, alpha, .. } = rows;
+        let b = paper::describe_lanes(n, depth, absorbance);
+        let at = |lanes: &[Lanes], i: usize| lanes[i / LANES].0[i % LANES];
+        let first = targets.len();
+        for i in 0..n.min(most) {
             if most < n {
-                rows.order.swap(i, rng.random_range(i..n));
+                order.swap(i, rng.random_range(i..n));
             }
-            let at = rows.order[i] as usize;
-            let in_front = pixel.view_z.iter().zip(&rows.absorbances).map(|(&v, &a)| if v < pixel.view_z[at] { a } else { 0.0 }).sum::<f64>();
-            rows.features.extend_from_slice(&rows.whole[at * (width + 1)..][..width]);
-            rows.targets.push(libm::exp(-in_front) as f32);
-            rows.alpha.push(pixel.alpha[at]);
+            let chosen = order[i] as usize;
+            features.extend_from_slice(&[at(depth, chosen), n as f32, b[0], b[1], b[2], b[3], b[4]]);
+            targets.push(in_front(view_z, absorbance, at(view_z, chosen)));
+            alpha.push(at(alpha_lanes, chosen));
         }
-        Ok(())
+        exp_of_minus(&mut targets[first..]);
     }
 
     fn sample_of<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, most: usize, rng: &mut Stream, rows: &mut Sampled) {
-        let Sampled { seen, order, .. } = rows;
-        let (sums, ends) = self.pass_1::<K>(pixel, warp, seen);
         let n = pixel.len();
+        rows.see(pixel, &warp);
+        let Sampled { view_z, alpha_lanes, depth, absorbance, order, .. } = rows;
+        let at = |lanes: &[Lanes], i: usize| lanes[i / LANES].0[i % LANES];
+        let seen = |i: usize| Seen { view_z: at(view_z, i), z: at(depth, i), absorbance: at(absorbance, i) };
+        let mut sums = PixelSums::<f32, K>::default();
+        let mut ends = [0.0; 2];
+        for i in 0..n {
+            self.add(&mut sums, &mut ends, seen(i));
+        }
         order.clear();
         order.extend(0..n as u32);
         rows.of_pixel = 0;
@@ -401,15 +475,33 @@ impl Extractor {
             if most < n {
                 order.swap(i, rng.random_range(i..n));
             }
-            let one = seen[order[i] as usize];
-            if let Known::Features(first, measure) = sums.look(one, ends) {
-                let in_front = seen.iter().map(|s| if s.view_z < one.view_z { f64::from(s.absorbance) } else { 0.0 }).sum::<f64>();
+            let chosen = order[i] as usize;
+            if let Known::Features(first, measure) = sums.look(seen(chosen), ends) {
                 rows.features.extend_from_slice(&first);
                 rows.features.extend_from_slice(&measure);
-                rows.targets.push(libm::exp(-in_front) as f32);
-                rows.alpha.push(pixel.alpha[order[i] as usize]);
+                rows.targets.push(in_front(view_z, absorbance, at(view_z, chosen)));
+                rows.alpha.push(at(alpha_lanes, chosen));
                 rows.of_pixel += 1;
             }
+        }
+        // Optical depths become transmittances together.
+        let first = rows.targets.len() - rows.of_pixel;
+        exp_of_minus(&mut rows.targets[first..]);
+    }
+
+    /// Pass 1: adds a fragment, in the precision of the storage.
+    fn add<const K: usize>(&self, sums: &mut PixelSums<f32, K>, ends: &mut [f32; 2], seen: Seen<f32>) {
+        sums.add(seen);
+        if sums.nearest == seen.view_z {
+            ends[0] = seen.z;
+        }
+        if sums.farthest == seen.view_z {
+            ends[1] = seen.z;
+        }
+        if self.storage.rounds() {
+            let round = |x: f32| round_f16(x.into()) as f32;
+            sums.b0 = round(sums.b0);
+            sums.b = sums.b.map(round);
         }
     }
 
@@ -483,5 +575,53 @@ mod tests {
         };
         assert_eq!(depths(None), [0.0, 0.25, 1.0]);
         assert_eq!(depths(Some((1.0, 9.0))), [0.125, 0.25, 0.625]);
+    }
+
+    /// Sampled rows against those of [`Extractor::pixel`]: the same fragments, features to f32 rounding (for thin pixels what rounding of the moments makes of
+    /// them), targets to 2e-6. Control: the row of the fragment before.
+    #[test]
+    fn sampled_rows_are_those_of_whole_pixels() {
+        let planes = CameraPlanes::new(0.5, 20.0).unwrap();
+        for set in [FeatureSet::Paper, FeatureSet::Recentred, FeatureSet::Recentred6] {
+            let extractor = Extractor::new(set, Some(planes), Some((0.5, 20.0))).unwrap();
+            let width = set.width();
+            let mut rng = crate::numeric::rng::stream(1, 92, 0);
+            let (mut compared, mut controls) = (0, 0);
+            for round in 0..400 {
+                let n = 1 + round % 40;
+                let view_z: Vec<f32> = (0..n).map(|_| rng.random_range(1.0..15.0)).collect();
+                let alpha: Vec<f32> = (0..n).map(|_| rng.random_range(0.01..0.9)).collect();
+                let pixel = Pixel { view_z: &view_z, alpha: &alpha, color: None };
+                let mut whole = vec![0.0; n * (width + 1)];
+                extractor.pixel(pixel, &mut whole).unwrap();
+                let mut exact = vec![0.0; n];
+                abuffer::transmittance(pixel, &mut exact);
+                let asked: Vec<usize> = (0..n).filter(|i| whole[i * (width + 1) + width].is_nan()).collect();
+                let mut rows = Sampled::default();
+                extractor.sample(pixel, usize::MAX, &mut rng, &mut rows);
+                assert_eq!((rows.of_pixel, rows.targets.len(), rows.features.len()), (asked.len(), asked.len(), asked.len() * width));
+                let off = |row: &[f32], i: usize| {
+                    let expected = &whole[i * (width + 1)..][..width];
+                    let bar = |k: usize| if set == FeatureSet::Paper || k < 5 { 2e-5 } else { 5e-3 };
+                    row.iter().zip(expected).enumerate().any(|(k, (f, e))| (f - e).is_nan() || (f - e).abs() > bar(k) * (1.0 + e.abs()))
+                };
+                for (k, (&i, row)) in asked.iter().zip(rows.features.chunks_exact(width)).enumerate() {
+                    assert!(!off(row, i) || width > 7, "{set:?} n = {n}: {row:?} for {:?}", &whole[i * (width + 1)..][..width]);
+                    assert!((f64::from(rows.targets[k]) - exact[i]).abs() <= 2e-6);
+                    assert_eq!(rows.alpha[k], alpha[i]);
+                    controls += usize::from(k > 0 && off(row, asked[k - 1]));
+                    compared += 1;
+                }
+                // Some of them: as many as asked for, each one of the pixel's, none twice.
+                let mut some = Sampled::default();
+                extractor.sample(pixel, 3, &mut rng, &mut some);
+                assert_eq!(some.of_pixel, asked.len().min(3));
+                let mut seen: Vec<&[f32]> = some.features.chunks_exact(width).collect();
+                assert!(seen.iter().all(|row| rows.features.chunks_exact(width).any(|r| r == *row)));
+                seen.dedup();
+                assert_eq!(seen.len(), some.of_pixel);
+            }
+            assert!(compared > 5000 && controls > compared / 2);
+        }
     }
 }

@@ -169,7 +169,7 @@ mod tests {
         let sizes = DatasetConfig { training_pairs: 3500, validation_pairs: 1000, ..dataset };
         let (one, other) = (scene(1), scene(2));
         let from_lists = build_from_lists("tiny", seed, &[("one", &one)], &sizes).unwrap();
-        let (random, _) = build("tiny", seed, &synth, &sizes, &|_| {}).unwrap();
+        let random = build("tiny", seed, &synth, &sizes, &|_| {}).unwrap();
         for dataset in [from_lists, random] {
             let targets = &dataset.validation.targets;
             let mean = targets.iter().sum::<f32>() / targets.len() as f32;

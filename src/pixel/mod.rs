@@ -5,6 +5,6 @@ pub mod abuffer;
 pub mod depth;
 pub mod fragment;
 
-pub use absorbance::{ABSORBANCE_MAX, absorbance};
+pub use absorbance::{ABSORBANCE_MAX, absorbance, absorbance_lanes};
 pub use depth::{CameraPlanes, DepthError, LogWarp, MomentDepth, ViewZ, WindowDepth};
 pub use fragment::{Fragment, FragmentError, FragmentList, Pixel};

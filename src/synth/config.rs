@@ -265,44 +265,14 @@ impl SynthConfig {
     /// A wide distribution, for networks that are to serve scenes which nobody has seen yet: few and many fragments, thin closed surfaces, clusters and
     /// clouds, faint and nearly opaque, spread over the whole depth range or over very little of it.
     ///
-    /// `configs/recommended.toml` says the same and names what each law stands for.
+    /// It is what `configs/recommended.toml` says, which names what each law stands for.
     pub fn wide() -> Self {
-        let range = |min, max| Range { min, max };
-        let many = |min| FragmentCount { min, max: 256, law: CountLaw::LogUniform };
-        let few = FragmentCount { min: 3, max: 32, law: CountLaw::Uniform };
-        let paired = DepthLaw::Paired { gap: range(1e-3, 1.0) };
-        let clustered = DepthLaw::Clustered { clusters: CountRange { min: 1, max: 6 }, width: range(1e-3, 0.3) };
-        let uniform = DepthLaw::Uniform {};
-        let beta = DepthLaw::Beta { a: range(0.3, 5.0), b: range(0.3, 5.0) };
-        let any = |reading| AlphaLaw::Uniform { min: 0.02, max: 0.95, reading };
-        let faint = |reading| AlphaLaw::LogUniform { min: 0.003, max: 0.5, reading };
-        let uneven = AlphaLaw::LogUniform { min: 0.003, max: 1.0, reading: AlphaReading::PerFragment };
-        let between = |min, max| AlphaLaw::Uniform { min, max, reading: AlphaReading::PerFragment };
-        let subrange = AlphaLaw::Subrange { min: 0.0, max: 1.0 };
-        let near_opaque = AlphaLaw::NearOpaque { share: range(0.0, 0.5), low: range(0.01, 0.5) };
-        let (half, thin) = (range(0.02, 1.0), range(1e-4, 1.0));
-        let law = |weight, fragments, depth, alpha, half| PixelLaw { weight, fragments, depth, alpha, range: Some(PixelRange { half }) };
-        Self {
-            camera: CameraPlanes::new(0.1, 100.0).expect("0 < near < far"),
-            pixels: vec![
-                law(6.0, many(3), paired, any(AlphaReading::PerPixel), half),
-                law(9.0, many(3), paired, any(AlphaReading::PerObject), thin),
-                law(5.0, many(3), paired, faint(AlphaReading::PerPixel), thin),
-                law(6.0, few, paired, faint(AlphaReading::PerObject), half),
-                law(4.0, many(3), paired, near_opaque, half),
-                law(5.0, many(16), clustered, between(0.1, 0.35), half),
-                law(5.0, many(3), clustered, any(AlphaReading::PerObject), half),
-                law(4.0, many(3), clustered, uneven, half),
-                law(6.0, many(3), clustered, near_opaque, thin),
-                law(10.0, many(3), uniform, subrange, thin),
-                law(7.0, many(16), uniform, faint(AlphaReading::PerPixel), half),
-                law(8.0, many(3), uniform, uneven, half),
-                law(5.0, few, uniform, between(0.1, 0.5), half),
-                law(10.0, many(3), beta, subrange, half),
-                law(6.0, many(3), beta, any(AlphaReading::PerPixel), half),
-                law(4.0, few, beta, uneven, half),
-            ],
+        #[derive(Deserialize)]
+        struct Config {
+            synth: SynthConfig,
         }
+        let config: Config = toml::from_str(include_str!("../../configs/recommended.toml")).expect("a test reads it");
+        config.synth
     }
 
     /// Checks every range.
@@ -429,15 +399,10 @@ mod tests {
     }
 
     #[test]
-    fn the_recommended_configuration_is_the_wide_distribution() {
-        #[derive(Deserialize)]
-        struct Config {
-            synth: SynthConfig,
-        }
-        let config: Config = toml::from_str(include_str!("../../configs/recommended.toml")).unwrap();
-        assert_eq!(config.synth, SynthConfig::wide());
-        config.synth.validate().unwrap();
-        assert_eq!(config.synth.pixels.iter().map(|law| law.weight).sum::<f64>(), 100.0);
+    fn the_wide_distribution_is_valid() {
+        let wide = SynthConfig::wide();
+        wide.validate().unwrap();
+        assert!(wide.pixels.len() > 10);
     }
 
     #[test]

@@ -305,7 +305,7 @@ mod tests {
 
     fn dataset() -> Dataset {
         let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 1000, validation_pairs: 300, ..sizes() };
-        build("t", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap().0
+        build("t", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap()
     }
 
     fn config(epochs: u64) -> TrainConfig {
@@ -365,7 +365,7 @@ mod tests {
     fn an_interruption_changes_nothing_of_a_stream() {
         let folder = tempfile::tempdir().unwrap();
         let sizes = DatasetConfig { features: FeatureSet::Recentred, training_pairs: 2000, validation_pairs: 300, refresh: 0.25, ..sizes() };
-        let dataset = build("t", 3, &SynthConfig::paper(), &sizes, &|_| {}).unwrap().0;
+        let dataset = build("t", 3, &SynthConfig::paper(), &sizes, &|_| {}).unwrap();
         let config: TrainConfig =
             toml::from_str("hidden = [8]\nepochs = 7\nbatch = 512\nlearning_rate = 1e-2\nschedule = \"cosine\"\nseeds = 2").unwrap();
         let path = folder.path().join("m.checkpoint.json");
