@@ -354,7 +354,9 @@ mod tests {
         let [one, three] = [1, 3].map(|threads| {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
                 let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config());
-                (0..5).for_each(|_| drop(optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2)));
+                for _ in 0..5 {
+                    optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2);
+                }
                 optimiser.parameters()
             })
         });
