@@ -54,6 +54,48 @@ pub fn library() -> Result<PathBuf, String> {
     }
 }
 
+/// A graph that onnxruntime holds ready to run.
+pub struct Session {
+    session: ort::session::Session,
+}
+
+impl Session {
+    /// Loads a graph, to be run on so many threads, or on as many as onnxruntime thinks best.
+    ///
+    /// # Errors
+    /// onnxruntime's own words.
+    pub fn new(library: &Path, bytes: &[u8], threads: Option<usize>) -> Result<Self, String> {
+        // A process may have one environment only.
+        static ENVIRONMENT: OnceLock<Result<ort::environment::Environment, String>> = OnceLock::new();
+        let made = || ort::init_from(library).map_err(|e| e.to_string())?.with_telemetry(false).build().map_err(|e| e.to_string());
+        let environment = ENVIRONMENT.get_or_init(made).as_ref().map_err(Clone::clone)?;
+        let mut builder = ort::session::Session::builder(environment).map_err(|e| e.to_string())?;
+        if let Some(threads) = threads {
+            builder = builder.with_intra_threads(threads).map_err(|e| e.to_string())?;
+        }
+        Ok(Self { session: builder.commit_from_memory(bytes).map_err(|e| e.to_string())? })
+    }
+
+    /// Runs the graph and hands its answers over.
+    ///
+    /// # Shapes
+    /// `rows: [N, width]`, row by row; the answers are `[N]`.
+    ///
+    /// # Errors
+    /// onnxruntime's own words.
+    pub fn run<T>(&mut self, rows: &[f32], width: usize, read: impl FnOnce(&[f32]) -> T) -> Result<T, String> {
+        let n = rows.len() / width;
+        let input = ort::value::TensorRef::from_array_view(([n, width], rows)).map_err(|e| e.to_string())?;
+        let outputs = self.session.run(ort::inputs![INPUT => input]).map_err(|e| e.to_string())?;
+        let (shape, values) =
+            outputs.get(OUTPUT).ok_or("there is no output 'transmittance'")?.try_extract_tensor::<f32>().map_err(|e| e.to_string())?;
+        if shape[..] != [n as i64, 1] {
+            return Err(format!("output has shape {shape:?}, expected [{n}, 1]"));
+        }
+        Ok(read(values))
+    }
+}
+
 /// Runs the graph by onnxruntime.
 ///
 /// # Shapes
@@ -62,20 +104,7 @@ pub fn library() -> Result<PathBuf, String> {
 /// # Errors
 /// onnxruntime's own words.
 pub fn onnxruntime(library: &Path, bytes: &[u8], rows: &[f32], width: usize) -> Result<Vec<f32>, String> {
-    // A process may have one environment only.
-    static ENVIRONMENT: OnceLock<Result<ort::environment::Environment, String>> = OnceLock::new();
-    let made = || ort::init_from(library).map_err(|e| e.to_string())?.with_telemetry(false).build().map_err(|e| e.to_string());
-    let environment = ENVIRONMENT.get_or_init(made).as_ref().map_err(Clone::clone)?;
-    let mut builder = ort::session::Session::builder(environment).map_err(|e| e.to_string())?;
-    let mut session = builder.commit_from_memory(bytes).map_err(|e| e.to_string())?;
-    let n = rows.len() / width;
-    let input = ort::value::TensorRef::from_array_view(([n, width], rows)).map_err(|e| e.to_string())?;
-    let outputs = session.run(ort::inputs![INPUT => input]).map_err(|e| e.to_string())?;
-    let (shape, values) = outputs.get(OUTPUT).ok_or("there is no output 'transmittance'")?.try_extract_tensor::<f32>().map_err(|e| e.to_string())?;
-    if shape[..] != [n as i64, 1] {
-        return Err(format!("output has shape {shape:?}, expected [{n}, 1]"));
-    }
-    Ok(values.to_vec())
+    Session::new(library, bytes, None)?.run(rows, width, <[f32]>::to_vec)
 }
 
 /// Runs the graph by rten, which is always at hand.

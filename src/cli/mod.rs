@@ -1,5 +1,6 @@
 //! The command line: the only place that parses arguments, shows progress and prints.
 
+mod bench;
 mod check;
 mod config;
 mod evaluate;
@@ -56,6 +57,8 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     /// Render a scene, or convert a deep image, to a fragment list.
     Scene(scene::Scene),
+    /// Measure how fast training, generation and inference are.
+    Bench(bench::Bench),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -105,6 +108,7 @@ pub fn main() -> ExitCode {
         Command::Predict(c) => c.execute(&ui),
         Command::Evaluate(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
+        Command::Bench(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

@@ -28,6 +28,13 @@ impl Ui {
         Self { quiet: self.quiet, json: false }
     }
 
+    /// A warning or a note on stderr; nothing under `--quiet`.
+    pub fn warn(&self, text: &str) {
+        if !self.quiet {
+            eprintln!("{text}");
+        }
+    }
+
     /// Progress over `length` units: a bar on a terminal, a line now and then elsewhere, nothing under `--quiet`.
     pub fn progress(&self, name: &'static str, length: u64) -> Progress {
         let terminal = std::io::stderr().is_terminal();
