@@ -1,6 +1,7 @@
 //! ONNX exports: weights read back bit for bit, the graph run by onnxruntime and by rten.
 
-use crate::export::onnx::{INPUT, OUTPUT, biases_name, decode, weights_name};
+use crate::export::onnx::{INPUT, OUTPUT, answer_tensors, biases_name, decode, weights_name};
+use crate::features::Answer;
 use crate::model::Mlp;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -17,8 +18,12 @@ pub fn weights(bytes: &[u8], mlp: &Mlp) -> Result<(), String> {
     let graph = model.graph.ok_or("not an ONNX file: it holds no graph")?;
     let mut expected = Vec::new();
     for (index, dense) in mlp.layers().iter().enumerate() {
-        expected.push((weights_name(index), vec![dense.inputs() as i64, dense.outputs() as i64], &dense.weights));
-        expected.push((biases_name(index), vec![dense.outputs() as i64], &dense.biases));
+        expected.push((weights_name(index), vec![dense.inputs() as i64, dense.outputs() as i64], dense.weights.clone()));
+        expected.push((biases_name(index), vec![dense.outputs() as i64], dense.biases.clone()));
+    }
+    if let Answer::Fraction { column, offset } = mlp.feature_set().answer() {
+        let tensors = answer_tensors(mlp.feature_set().width(), column, offset);
+        expected.extend(tensors.map(|(name, dims, values)| (name.to_owned(), dims, values)));
     }
     if graph.initializer.len() != expected.len() {
         return Err(format!("{} tensors, the network has {}", graph.initializer.len(), expected.len()));
@@ -29,7 +34,7 @@ pub fn weights(bytes: &[u8], mlp: &Mlp) -> Result<(), String> {
             return Err(format!("tensor '{name}' has shape {:?}, the network's is {dims:?}", tensor.dims));
         }
         let found = tensor.raw_data.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        if let Some((at, (found, value))) = found.zip(values).enumerate().find(|(_, (f, v))| f.to_bits() != v.to_bits()) {
+        if let Some((at, (found, value))) = found.zip(&values).enumerate().find(|(_, (f, v))| f.to_bits() != v.to_bits()) {
             return Err(format!("tensor '{name}': number {at} is {found:?}, the network has {value:?}"));
         }
     }

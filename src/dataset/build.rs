@@ -560,4 +560,92 @@ pub(crate) mod tests {
         };
         insta::assert_snapshot!(format!("{}\n{}", hash(FeatureSet::Paper), hash(FeatureSet::Recentred6)));
     }
+
+    fn streamed(change: impl FnOnce(&mut DatasetConfig)) -> Rows {
+        let mut config = DatasetConfig { features: FeatureSet::Recentred, rows_per_pixel: 4, ..sizes() };
+        change(&mut config);
+        RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training).unwrap().take(3000, &|_| {}).unwrap()
+    }
+
+    /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in [−1, 1].
+    #[test]
+    fn streamed_rows_are_in_their_domain() {
+        for rows in [streamed(|_| {}), streamed(|c| c.storage = Storage::F16)] {
+            assert!(rows.len() >= 3000 && rows.len() < 3004);
+            assert!(rows.pixels.chunk_by(|a, b| a == b).all(|of_one| of_one.len() <= 4));
+            assert!(rows.targets.iter().all(|t| (0.0..=1.0).contains(t)));
+            for row in rows.features.chunks_exact(7) {
+                assert!(
+                    row.iter().all(|f| f.is_finite()) && (-1.0..=1.0).contains(&row[0]) && row[3..].iter().all(|f| (-1.0..=1.0).contains(f)),
+                    "{row:?}"
+                );
+            }
+        }
+    }
+
+    /// Rounding every sum to f16 moves the features of the same fragments, and not their answers.
+    #[test]
+    fn storage_is_what_moments_are_rounded_to() {
+        let all = |storage| streamed(|c| (c.rows_per_pixel, c.storage) = (0, storage));
+        let [single, half] = [all(Storage::F32), all(Storage::F16)];
+        // Closed forms answer fewer fragments from coarser moments, so rows differ in number; compare pixels that have as many.
+        let of = |rows: &Rows| -> Vec<(u32, Vec<f32>, Vec<f32>)> {
+            let mut at = 0;
+            let pixels = rows.pixels.chunk_by(|a, b| a == b);
+            pixels
+                .map(|p| {
+                    let range = at..at + p.len();
+                    at = range.end;
+                    (p[0], rows.features[7 * range.start..7 * range.end].to_vec(), rows.targets[range].to_vec())
+                })
+                .collect()
+        };
+        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> = of(&half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
+        let same: Vec<_> = of(&single).into_iter().filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h))).collect();
+        assert!(same.len() > 30, "{}", same.len());
+        assert!(same.iter().all(|(_, t, half)| *t == half.1));
+        assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);
+    }
+
+    /// Rows that serve the image weigh alpha² times the fragments that they stand for; in a dataset the weights' mean is 1, and they survive its files.
+    #[test]
+    fn weights_serve_the_image() {
+        let rows = streamed(|c| c.weights = Weighting::Image);
+        assert_eq!(rows.weights.len(), rows.len());
+        assert!(rows.weights.iter().all(|w| w.is_finite() && *w >= 0.0));
+        assert!(streamed(|_| {}).weights.is_empty());
+        let config = DatasetConfig {
+            features: FeatureSet::Recentred,
+            training_pairs: 500,
+            validation_pairs: 100,
+            weights: Weighting::Image,
+            rows_per_pixel: 4,
+            ..sizes()
+        };
+        let dataset = build("w", 3, &SynthConfig::wide(), &config, &|_| {}).unwrap();
+        let mean = dataset.training.weights.iter().sum::<f32>() / dataset.training.len() as f32;
+        assert!((mean - 1.0).abs() < 1e-4 && dataset.validation.weights.is_empty());
+        let folder = tempfile::tempdir().unwrap();
+        crate::dataset::file::write(folder.path(), crate::numeric::file::Replace::No, &dataset).unwrap();
+        assert_eq!(crate::dataset::file::read_from(folder.path()).unwrap(), dataset);
+    }
+
+    #[test]
+    fn what_cannot_be_streamed_is_named() {
+        let error = |config: &DatasetConfig, synth: &SynthConfig| match RowStream::new(1, synth, config, Purpose::Training) {
+            Err(error) => error.to_string(),
+            Ok(mut stream) => stream.take(10, &|_| {}).unwrap_err().to_string(),
+        };
+        let deep = DatasetConfig { features: FeatureSet::DeepWeightedBlended, ..sizes() };
+        assert_eq!(
+            error(&deep, &SynthConfig::paper()),
+            "dataset.features = 'deep-weighted-blended': its pixels cannot be streamed; set dataset.refresh to 0"
+        );
+        let mut few = SynthConfig::paper();
+        few.pixels[0].fragments.max = 3;
+        let recentred = DatasetConfig { features: FeatureSet::Recentred, ..sizes() };
+        assert!(error(&recentred, &few).contains("none needs the network"));
+        let wrong = DatasetConfig { refresh: 1.5, ..sizes() };
+        assert_eq!(error(&wrong, &SynthConfig::paper()), "dataset.refresh = 1.5: must be from 0 to 1");
+    }
 }

@@ -234,11 +234,11 @@ fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows
     let targets = read_npy::<f32>(&paths[1])?;
     let pixels = read_npy::<u32>(&paths[2])?;
     let weights = paths.get(3).map(|path| read_npy::<f32>(path)).transpose()?;
-    if let (Some(weights), Some(path)) = (&weights, paths.get(3)) {
-        if weights.shape() != [part.pairs] || !weights.iter().all(|w| w.is_finite() && *w >= 0.0) {
-            let reason = format!("expected {} finite weights, none negative", part.pairs);
-            return Err(DatasetFileError::Content { path: path.clone(), reason });
-        }
+    if let (Some(weights), Some(path)) = (&weights, paths.get(3))
+        && (weights.shape() != [part.pairs] || !weights.iter().all(|w| w.is_finite() && *w >= 0.0))
+    {
+        let reason = format!("expected {} finite weights, none negative", part.pairs);
+        return Err(DatasetFileError::Content { path: path.clone(), reason });
     }
     let shapes = [
         (&paths[0], features.shape(), vec![part.pairs, feature_set.width()]),

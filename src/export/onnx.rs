@@ -2,7 +2,7 @@
 //!
 //! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that such a graph needs, declared by hand.
 
-use crate::features::Answer;
+use crate::features::{Answer, MOST_LOG_ABSORBANCE};
 use crate::model::Mlp;
 use prost::Message;
 
@@ -195,6 +195,14 @@ pub fn biases_name(index: usize) -> String {
     format!("B{}", index + 1)
 }
 
+/// Constants of the part that makes a transmittance of a share of absorbance: name, shape, values.
+pub fn answer_tensors(width: usize, column: usize, offset: f32) -> [(&'static str, Vec<i64>, Vec<f32>); 5] {
+    let unit = (0..width).map(|i| if i == column { 1.0 } else { 0.0 }).collect();
+    let one = |name, value| (name, vec![1], vec![value]);
+    // e^80 is finite in f32.
+    [("column", vec![width as i64, 1], unit), one("offset", offset), one("most", MOST_LOG_ABSORBANCE), one("greatest", 80.0), one("one", 1.0)]
+}
+
 /// The graph of a network.
 pub fn model(mlp: &Mlp) -> ModelProto {
     let mut node = Vec::new();
@@ -215,7 +223,7 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         let (op, to) = match (index == last, mlp.feature_set().answer()) {
             (false, _) => ("Relu", format!("h{}", index + 1)),
             (true, Answer::Sigmoid) => ("Sigmoid", OUTPUT.to_owned()),
-            (true, Answer::Fraction { .. }) => ("Sigmoid", "share".to_owned()),
+            (true, Answer::Fraction { .. }) => ("Neg", "minus_logit".to_owned()),
         };
         node.push(NodeProto {
             input: vec![sum],
@@ -227,13 +235,19 @@ pub fn model(mlp: &Mlp) -> ModelProto {
     }
     let set = mlp.feature_set();
     if let Answer::Fraction { column, offset } = set.answer() {
-        // exp(−relu(exp(features[:, column]) − offset) · share); the column is picked by a product with a column of the unit matrix.
-        let unit: Vec<f32> = (0..set.width()).map(|i| if i == column { 1.0 } else { 0.0 }).collect();
-        initializer.push(tensor("column".to_owned(), vec![set.width() as i64, 1], &unit));
-        initializer.push(tensor("offset".to_owned(), vec![1], &[offset]));
+        // The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too large beside a great absorbance.
+        // exp(−relu(exp(min(features[:, column], most)) − offset) · share); the column is picked by a product with a column of the unit matrix.
+        for (name, dims, values) in answer_tensors(set.width(), column, offset) {
+            initializer.push(tensor(name.to_owned(), dims, &values));
+        }
         for (op, input, output) in [
+            ("Min", vec!["minus_logit", "greatest"], "bounded_logit"),
+            ("Exp", vec!["bounded_logit"], "odds"),
+            ("Add", vec!["odds", "one"], "inverse_share"),
+            ("Reciprocal", vec!["inverse_share"], "share"),
             ("MatMul", vec![INPUT, "column"], "log_absorbance"),
-            ("Exp", vec!["log_absorbance"], "shifted_absorbance"),
+            ("Min", vec!["log_absorbance", "most"], "bounded_absorbance"),
+            ("Exp", vec!["bounded_absorbance"], "shifted_absorbance"),
             ("Sub", vec!["shifted_absorbance", "offset"], "signed_absorbance"),
             ("Relu", vec!["signed_absorbance"], "absorbance"),
             ("Mul", vec!["absorbance", "share"], "in_front"),

@@ -1,7 +1,7 @@
 //! Shader source: WGSL and GLSL, unrolled scalars or packed vectors, through one emitter.
 
 use super::recentred;
-use crate::features::{Answer, FeatureSet, MomentDepthKind};
+use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE, MomentDepthKind};
 use crate::model::{Dense, Mlp};
 use std::fmt::Write;
 
@@ -203,7 +203,11 @@ fn ending(mlp: &Mlp, language: Language) -> String {
     match mlp.feature_set().answer() {
         Answer::Sigmoid => format!("    return {sigmoid};\n}}\n"),
         Answer::Fraction { column, offset } => {
-            let absorbance = language.bind("float", "absorbance", &format!("max(exp(f[{column}]) - {}, 0.0)", language.literal(offset)));
+            let absorbance = language.bind(
+                "float",
+                "absorbance",
+                &format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset)),
+            );
             format!("{absorbance}    return exp(-min(absorbance * ({sigmoid}), 80.0));\n}}\n")
         }
     }

@@ -155,7 +155,7 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         for pass in 0..K {
             for k in (pass..K).rev() {
                 let before = if k == 0 { R::ONE } else { m[k - 1] };
-                m[k] = m[k] - c * before;
+                m[k] -= c * before;
             }
         }
         // No factor overflows, so that 0 stays 0 however thin the pixel.
@@ -226,7 +226,8 @@ fn describe<R: Real, const K: usize>(m: &[R; K]) -> [R; K] {
         out[0] = mean;
         out[1] = if level == 0 { spread } else { spread.sqrt() };
         for k in 0..=last - 2 {
-            q[k] = q[k] - q[k + 2];
+            let beyond = q[k + 2];
+            q[k] -= beyond;
         }
     }
     out

@@ -2,7 +2,7 @@
 
 use super::Provenance;
 use super::kernel::{Row, TILE, ZEROS, hidden, logit, padded};
-use crate::features::{Answer, FeatureSet};
+use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use crate::numeric::Real;
 use crate::numeric::lanes::{self, LANES, Lanes};
 use fearless_simd::prelude::*;
@@ -270,7 +270,8 @@ impl Mlp {
             *out = match answer {
                 Answer::Sigmoid => s,
                 Answer::Fraction { column, offset } => {
-                    let absorbance = (R::from_f32(rows[lane * width + column]).exp() - R::from_f32(offset)).max(R::ZERO);
+                    let log = R::from_f32(rows[lane * width + column].min(MOST_LOG_ABSORBANCE));
+                    let absorbance = (log.exp() - R::from_f32(offset)).max(R::ZERO);
                     // e^−x is lost in rounding long before x = 100, and stays a normal number.
                     (-(absorbance * s).min(R::from_f64(80.0))).exp()
                 }
@@ -367,7 +368,8 @@ impl Padded {
                     Answer::Sigmoid => s,
                     Answer::Fraction { column, offset } => {
                         let splat = |x: f32| f32x16::splat(simd, x);
-                        let absorbance = (lanes::exp(simd, work[column][v].load(simd)) - splat(offset)).max(splat(0.0));
+                        let log = work[column][v].load(simd).min(splat(MOST_LOG_ABSORBANCE));
+                        let absorbance = (lanes::exp(simd, log) - splat(offset)).max(splat(0.0));
                         lanes::exp(simd, -(absorbance * s))
                     }
                 };

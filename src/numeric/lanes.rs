@@ -48,7 +48,7 @@ pub fn exp<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let x = x.max(splat(-87.33)).min(splat(88.37));
     let n = (x * splat(std::f32::consts::LOG2_E)).round_ties_even();
     // The first part of ln 2 has 9 bits: its product with n is exact.
-    let r = (x - n * splat(0.693_359_375)) + n * splat(2.121_944_4e-4);
+    let r = (x - n * splat(0.693_359_4)) + n * splat(2.121_944_4e-4);
     let mut p = splat(1.0 / 5040.0);
     for c in [1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5] {
         p = p * r + splat(c);
@@ -86,7 +86,7 @@ pub fn ln<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     }
     // 2s = t − s t: the leading term stays exact where m is near 1.
     let small = e * splat(-2.121_944_4e-4) + s * (splat(2.0) * (p * q) - t);
-    (small + t) + e * splat(0.693_359_375)
+    (small + t) + e * splat(0.693_359_4)
 }
 
 /// 1/(1 + e^−x).

@@ -98,6 +98,23 @@ mod tests {
     use crate::oit;
     use crate::pixel::CameraPlanes;
 
+    /// Two fragments need no network, whatever it says; of five the ends do not, and all answers lie between the total transmittance and 1.
+    #[test]
+    fn what_is_known_is_not_asked() {
+        let view_z = vec![2.0, 1.0, 4.0, 1.5, 2.5, 3.0, 7.0];
+        let alpha = vec![0.5, 0.25, 0.9, 0.3, 0.6, 0.2, 0.7];
+        let list = FragmentList::new(vec![0, 2, 7], view_z, alpha, None).unwrap();
+        let mlp = Mlp::new("r", FeatureSet::Recentred, random_mlp(&[4], 1).layers().to_vec(), crate::model::Provenance::default()).unwrap();
+        let found = Neural::new(mlp).transmittance(&list, Context::default(), &|_| {}).unwrap();
+        let exact = crate::pixel::abuffer::list_transmittance(&list);
+        for known in [0, 1, 3, 6] {
+            assert!((f64::from(found[known]) - exact[known]).abs() < 1e-6, "{known}");
+        }
+        assert_eq!((found[1], found[3]), (1.0, 1.0));
+        let total = exact[6] as f32 * 0.3;
+        assert!([2, 4, 5].iter().all(|&i| found[i] >= total && found[i] <= 1.0));
+    }
+
     #[test]
     fn answers_stand_in_the_order_of_the_list() {
         let list = FragmentList::new(vec![0, 0, 2, 3], vec![2.0, 1.0, 4.0], vec![0.5, 0.25, 1.0], None).unwrap();
@@ -106,10 +123,8 @@ mod tests {
         assert!(matches!(method.accumulate(&list, Context::default()), Err(MethodError::Depth { .. })));
         let context = Context { planes: Some(planes), ..Context::default() };
         let all = oit::weights(&list, &*method.accumulate(&list, context).unwrap());
-        let mut rows = vec![0.0; 14];
-        Extractor::new(FeatureSet::Paper, Some(planes), None).unwrap().pixel(list.pixel(1), &mut rows).unwrap();
-        assert_eq!(all[0], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[..7])));
-        assert_eq!(all[1], f64::from(random_mlp(&[4], 1).forward::<f32>(&rows[7..])));
+        let rows = Extractor::new(FeatureSet::Paper, Some(planes), None).unwrap().list(&list, 1..2).unwrap().features;
+        assert_eq!(all[..2], random_mlp(&[4], 1).predict(&rows).into_iter().map(f64::from).collect::<Vec<_>>());
         assert_eq!(all.len(), 3);
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap().with_planes(planes);
         assert!(method.transmittance(&none, Context::default(), &|_| {}).unwrap().is_empty());

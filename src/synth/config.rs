@@ -111,7 +111,8 @@ pub enum DepthLaw {
     /// Uniform.
     // A unit variant would take any field without an error.
     Uniform {},
-    /// Each fragment belongs to one of a few clusters and scatters about its centre by the normal law; centres are uniform. Smoke, hair.
+    /// Each fragment belongs to one of a few clusters and scatters about its centre, half of them by the normal and half by the uniform law;
+    /// centres are uniform. Smoke, hair.
     Clustered {
         /// Number of clusters, uniform.
         clusters: CountRange,

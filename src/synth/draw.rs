@@ -275,7 +275,9 @@ impl Shape {
                 for _ in 0..n {
                     let k = below(rng, clusters.len());
                     let (center, width) = clusters[k];
-                    depth.push(center + width * normal.draw(rng));
+                    // Half with soft edges, half with hard ones; √3 makes the uniform law's deviation 1.
+                    let scatter = if unit(rng) < 0.5 { normal.draw(rng) } else { (2.0 * unit(rng) - 1.0) * 3f64.sqrt() };
+                    depth.push(center + width * scatter);
                     object.push(k as u32);
                 }
                 return;

@@ -2,7 +2,7 @@
 
 use super::{AdamMoments, Backend, Optimiser, TrainConfig, initial};
 use crate::dataset::Batch;
-use crate::features::{Answer, FeatureSet};
+use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer as _};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 
@@ -62,7 +62,7 @@ impl BurnOptimiser {
         let absorbance = match self.answer {
             Answer::Sigmoid => None,
             Answer::Fraction { column: at, offset } => {
-                Some(column(features.chunks_exact(width).map(|row| (libm::expf(row[at]) - offset).max(0.0)).collect()))
+                Some(column(features.chunks_exact(width).map(|row| (libm::expf(row[at].min(MOST_LOG_ABSORBANCE)) - offset).max(0.0)).collect()))
             }
         };
         let (y, weights) = (column(targets), column(weights));

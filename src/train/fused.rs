@@ -6,7 +6,7 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::{Batch, Blocks};
-use crate::features::{Answer, FeatureSet};
+use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use crate::model::kernel::{Row, TILE, ZEROS, hidden, logit, padded, wide};
 use crate::numeric::lanes::{Lanes, exp, sigmoid};
 use fearless_simd::prelude::*;
@@ -211,7 +211,8 @@ fn output<S: Simd>(
         let (value, slope) = match answer {
             Answer::Sigmoid => (s, slope),
             Answer::Fraction { column, offset } => {
-                let absorbance = (exp(simd, block[column].load(simd)) - splat(offset)).max(zero);
+                let log = block[column].load(simd).min(splat(MOST_LOG_ABSORBANCE));
+                let absorbance = (exp(simd, log) - splat(offset)).max(zero);
                 let value = exp(simd, -(absorbance * s));
                 (value, -(value * absorbance) * slope)
             }

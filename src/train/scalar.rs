@@ -3,7 +3,7 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::Batch;
-use crate::features::{Answer, FeatureSet};
+use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 
 /// A network being fitted one row after the other, in f64.
 pub struct Scalar {
@@ -37,7 +37,7 @@ impl Scalar {
         let (value, slope) = match self.answer {
             Answer::Sigmoid => (s, s * (1.0 - s)),
             Answer::Fraction { column, offset } => {
-                let absorbance = (libm::exp(features[column].into()) - f64::from(offset)).max(0.0);
+                let absorbance = (libm::exp(features[column].min(MOST_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
                 let value = libm::exp(-absorbance * s);
                 (value, -value * absorbance * s * (1.0 - s))
             }

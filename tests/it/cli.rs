@@ -101,7 +101,7 @@ fn run_makes_and_checks_everything() {
     run().success();
     let results: serde_json::Value = serde_json::from_slice(&std::fs::read(at.path("out/run.json")).unwrap()).unwrap();
     let result = &results["results"][0];
-    assert_eq!((results["command"].as_str(), result["network"].as_str(), result["backend"].as_str()), (Some("run"), Some("7-8-4-1"), Some("flex")));
+    assert_eq!((results["command"].as_str(), result["network"].as_str(), result["backend"].as_str()), (Some("run"), Some("7-8-4-1"), Some("fused")));
     for key in ["transmittance_mse", "validation_loss", "samples_per_second", "total_seconds"] {
         assert!(result[key].as_f64().unwrap() > 0.0, "{key}");
     }
@@ -187,7 +187,7 @@ fn the_sample_is_what_its_command_makes() {
 #[test]
 fn shipped_configurations_are_valid() {
     let at = Workplace::new();
-    let mut count = 0;
+    let mut files = Vec::new();
     for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("configs")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_none_or(|e| e != "toml") {
@@ -198,10 +198,31 @@ fn shipped_configurations_are_valid() {
             .lines()
             .map(|l| if l.contains("_pairs = ") { format!("{} = 50\n", l.split(" = ").next().unwrap()) } else { format!("{l}\n") })
             .collect();
-        nmt(&["generate", &at.write("small.toml", &small), "--out", &at.path(&format!("d{count}"))]).success();
-        count += 1;
+        // Under their own names, since some extend others.
+        files.push(at.write(path.file_name().unwrap().to_str().unwrap(), &small));
     }
-    assert!(count >= 2);
+    assert!(files.len() >= 6);
+    for (index, file) in files.iter().enumerate() {
+        nmt(&["generate", file, "--out", &at.path(&format!("d{index}"))]).success();
+    }
+}
+
+/// A file that extends another changes what it names and nothing else; a base that is missing, or extends another itself, is named.
+#[test]
+fn configurations_extend_one_another() {
+    let at = Workplace::new();
+    let base = at.config();
+    let name = Path::new(&base).file_name().unwrap().to_str().unwrap().to_owned();
+    let child = at.write("child.toml", &format!("extends = \"{name}\"\nname = \"child\"\n[train]\nhidden = [3]\n"));
+    nmt(&["train", &child, "--epochs", "1", "--out", &at.path("child.json")]).success();
+    let model: serde_json::Value = serde_json::from_slice(&std::fs::read(at.path("child.json")).unwrap()).unwrap();
+    assert_eq!((model["name"].as_str(), model["layer_sizes"].as_array().unwrap().len()), (Some("child"), 3));
+    let lost = at.write("lost.toml", "extends = \"nowhere.toml\"");
+    nmt(&["generate", &lost, "--out", &at.path("x")]).code(2).stderr(contains("nowhere.toml"));
+    let twice = at.write("twice.toml", "extends = \"child.toml\"");
+    nmt(&["generate", &twice, "--out", &at.path("x")]).code(2).stderr(contains("extends another file itself"));
+    let wrong = at.write("wrong.toml", &format!("extends = \"{name}\"\n[train]\nhiden = [3]\n"));
+    nmt(&["generate", &wrong, "--out", &at.path("x")]).code(2).stderr(contains("unknown field `hiden`"));
 }
 
 #[test]

@@ -45,3 +45,33 @@ fn reproduces_features_and_transmittance_from_the_json_alone() {
     std::fs::write(at.path("wrong.npy"), bytes).unwrap();
     assert_eq!(read(&at.path("wrong.npy")).0, Some(1));
 }
+
+/// The same for the recommended network that is shipped, on the sample of pixels that stands in `data/`: features by their definition, exact answers by sorting.
+#[test]
+fn reproduces_the_recommended_network() {
+    let Some(python) = python() else { return };
+    let at = Workplace::new();
+    let root = env!("CARGO_MANIFEST_DIR");
+    for name in ["recommended", "moments-6"] {
+        let model = format!("{root}/models/{name}.json");
+        let fragments = format!("{root}/data/sample.npz");
+        nmt(&["export", &model, "--out", &at.path(name)]).success();
+        nmt(&["predict", &model, "--fragments", &fragments, "--out", &at.path("t.npy"), "--force"]).success();
+        let read = |predicted: &str| {
+            Command::new(&python)
+                .args([&format!("{root}/scripts/read_export.py"), &model, &fragments, "--predicted", predicted])
+                .args(["--onnx", &at.path(&format!("{name}/{name}.onnx"))])
+                .output()
+                .unwrap()
+        };
+        let output = read(&at.path("t.npy"));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{text}");
+        assert!(text.contains("ok nmt predict") && text.contains("ok onnxruntime") && text.contains("ok control"), "{text}");
+        // Control: the answers in another order.
+        let mut bytes = std::fs::read(at.path("t.npy")).unwrap();
+        bytes[128..].rotate_left(4);
+        std::fs::write(at.path("wrong.npy"), bytes).unwrap();
+        assert_eq!(read(&at.path("wrong.npy")).status.code(), Some(1));
+    }
+}
