@@ -317,11 +317,10 @@ mod tests {
                         let found = one("nmt_recentred", arguments(ends));
                         let answer = one("nmt_fragment_transmittance", arguments(ends))[0];
                         let off = |found: &[f32]| match sums.look(*s, ends) {
-                            Known::Transmittance(t) => !((found[set.width()] - t).abs() <= 2e-6),
+                            Known::Transmittance(t) => !near(found[set.width()], t, 2e-6),
                             Known::Features(first, measure) => {
                                 let expected = first.iter().chain(&measure);
-                                found[set.width()] >= 0.0
-                                    || expected.enumerate().any(|(k, e)| !((found[k] - e).abs() <= if k < 5 { 1e-5 } else { 1e-2 }))
+                                found[set.width()] >= 0.0 || expected.enumerate().any(|(k, &e)| !near(found[k], e, if k < 5 { 1e-5 } else { 1e-2 }))
                             }
                         };
                         assert!(!off(&found), "{format:?} K = {K} n = {n}: {found:?} for {:?}", sums.look(*s, ends));
@@ -345,6 +344,11 @@ mod tests {
         compare::<4>(FeatureSet::Recentred);
         compare::<6>(FeatureSet::Recentred6);
         compare::<8>(FeatureSet::Recentred8);
+    }
+
+    /// Whether two numbers are no further apart than that; false for NaN.
+    fn near(a: f32, b: f32, bar: f32) -> bool {
+        (a - b).abs() <= bar
     }
 
     fn random_layers(width: usize) -> Vec<Dense> {

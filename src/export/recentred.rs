@@ -197,7 +197,21 @@ fn look(w: &mut Writer, k: usize) {
             w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
             w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / max(1.0 - {mean} * {mean}, 1e-6), 0.0, 1.0))", q[2]));
         }
-        items.extend([mean, spread]);
+        if level >= 2 {
+            // Fades out what rounding has made noise of.
+            for (name, moment, value) in [
+                (format!("sure_{mean}"), 2 * level + 1, format!("{mean} * trust_{mean}")),
+                (format!("sure_{spread}"), 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}")),
+            ] {
+                let of = name.trim_start_matches("sure_");
+                w.bind(&format!("noise_{of}"), &format!("e1{} * per_mass{level}", " * reach".repeat(moment - 1)));
+                w.bind(&format!("trust_{of}"), &format!("1.0 / (1.0 + noise_{of} * noise_{of})"));
+                w.bind(&name, &value);
+            }
+            items.extend([format!("sure_{mean}"), format!("sure_{spread}")]);
+        } else {
+            items.extend([mean, spread]);
+        }
         let rest = q.len() - 2;
         if rest > 2 {
             q = (0..rest)

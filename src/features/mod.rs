@@ -502,9 +502,8 @@ impl Extractor {
             ends[1] = seen.z;
         }
         if self.storage.rounds() {
-            let round = |x: f32| round_f16(x.into()) as f32;
-            sums.b0 = round(sums.b0);
-            sums.b = sums.b.map(round);
+            sums.b0 = round_f16(sums.b0.into()) as f32;
+            sums.b = sums.b.map(|b| round_f16(b.into()) as f32);
         }
     }
 
