@@ -1,7 +1,7 @@
 //! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light passes in front of it.
 //!
 //! Data flows down this list of modules, and a module imports only from those above it:
-//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`evaluate`], [`bench`].
+//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`evaluate`], [`mod@bench`].
 
 #![warn(missing_docs)]
 

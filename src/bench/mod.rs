@@ -24,7 +24,7 @@ const MOST_CALLS: u64 = 1 << 24;
 pub struct Plan {
     /// Repetitions, each a sample.
     pub repeat: usize,
-    /// Least time of a repetition, as far as the warm-up foretells it [s]; it is filled with as many calls as it takes.
+    /// Least time of a repetition, as far as the warm-up foretells it \[s\]; it is filled with as many calls as it takes.
     pub sample_seconds: f64,
 }
 
@@ -131,7 +131,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Doubles the number of calls until they take half a sample's time, and goes on from there in proportion. `time` says how long so many calls take [s].
+/// Doubles the number of calls until they take half a sample's time, and goes on from there in proportion. `time` says how long so many calls take \[s\].
 fn calls_that_fill(sample_seconds: f64, mut time: impl FnMut(u64) -> Result<f64, BenchError>) -> Result<u64, BenchError> {
     let mut calls = 1;
     loop {

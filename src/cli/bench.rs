@@ -38,7 +38,7 @@ struct Common {
     /// Repetitions; what is compared takes turns in each.
     #[arg(long, value_name = "N", default_value_t = 15)]
     repeat: usize,
-    /// Least time of a repetition [s].
+    /// Least time of a repetition in seconds.
     #[arg(long, value_name = "S", default_value_t = 0.1)]
     sample_seconds: f64,
     /// Threads, instead of one a core.

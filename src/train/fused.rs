@@ -1,6 +1,6 @@
 //! The training kernel: forward pass, loss, backward pass and gradient sums of a tile of rows in one go, on all cores, in explicit SIMD.
 //!
-//! A batch is cut into chunks of [`CHUNK`] blocks whatever the number of threads; each chunk sums its own gradient in a fixed order, and the chunks' gradients
+//! A batch is cut into chunks of 128 blocks whatever the number of threads; each chunk sums its own gradient in a fixed order, and the chunks' gradients
 //! are added in order. So the result depends on the SIMD level alone.
 
 use super::adam::Adam;
