@@ -570,7 +570,7 @@ pub(crate) mod tests {
     /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in [−1, 1].
     #[test]
     fn streamed_rows_are_in_their_domain() {
-        for rows in [streamed(|_| {}), streamed(|c| c.storage = Storage::F16)] {
+        for rows in [streamed(|_| {}), streamed(|c| c.storage = Storage::F16), streamed(|c| c.storage = Storage::Unorm16)] {
             assert!(rows.len() >= 3000 && rows.len() < 3004);
             assert!(rows.pixels.chunk_by(|a, b| a == b).all(|of_one| of_one.len() <= 4));
             assert!(rows.targets.iter().all(|t| (0.0..=1.0).contains(t)));
@@ -583,11 +583,17 @@ pub(crate) mod tests {
         }
     }
 
-    /// Rounding every sum to f16 moves the features of the same fragments, and not their answers.
+    /// Rounding to 16 bits moves the features of the same fragments, and not their answers.
     #[test]
     fn storage_is_what_moments_are_rounded_to() {
         let all = |storage| streamed(|c| (c.rows_per_pixel, c.storage) = (0, storage));
-        let [single, half] = [all(Storage::F32), all(Storage::F16)];
+        let single = all(Storage::F32);
+        for storage in [Storage::F16, Storage::Unorm16] {
+            compare(&single, &all(storage));
+        }
+    }
+
+    fn compare(single: &Rows, half: &Rows) {
         // Closed forms answer fewer fragments from coarser moments, so rows differ in number; compare pixels that have as many.
         let of = |rows: &Rows| -> Vec<(u32, Vec<f32>, Vec<f32>)> {
             let mut at = 0;
@@ -600,8 +606,8 @@ pub(crate) mod tests {
                 })
                 .collect()
         };
-        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> = of(&half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
-        let same: Vec<_> = of(&single).into_iter().filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h))).collect();
+        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> = of(half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
+        let same: Vec<_> = of(single).into_iter().filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h))).collect();
         assert!(same.len() > 30, "{}", same.len());
         assert!(same.iter().all(|(_, t, half)| *t == half.1));
         assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);

@@ -4,6 +4,7 @@ pub mod deep_weighted_blended;
 pub mod paper;
 pub mod recentred;
 
+use crate::moments::storage::through_unorm16;
 use crate::numeric::lanes::{self, LANES, Lanes};
 use crate::numeric::quantise::round_f16;
 use crate::numeric::rng::Stream;
@@ -209,12 +210,8 @@ pub enum Storage {
     F32,
     /// RGBA16F targets: every sum is rounded to f16.
     F16,
-}
-
-impl Storage {
-    fn rounds(self) -> bool {
-        self == Self::F16
-    }
+    /// RGBA16 targets: moments, normalised by an f32 b_0, go through the transform that fills their range and are rounded to 16 bits, once a pixel.
+    Unorm16,
 }
 
 /// Rows that [`Extractor::sample`] has made, and what it works in.
@@ -393,6 +390,7 @@ impl Extractor {
             self.add(&mut sums, &mut ends, one);
             seen.push(one);
         }
+        self.keep(&mut sums);
         (sums, ends)
     }
 
@@ -468,6 +466,7 @@ impl Extractor {
         for i in 0..n {
             self.add(&mut sums, &mut ends, seen(i));
         }
+        self.keep(&mut sums);
         order.clear();
         order.extend(0..n as u32);
         rows.of_pixel = 0;
@@ -492,6 +491,24 @@ impl Extractor {
         exp_of_minus(&mut rows.targets[first..]);
     }
 
+    /// What the storage keeps of whole sums.
+    fn keep<const K: usize>(&self, sums: &mut PixelSums<f32, K>) {
+        fn through<const M: usize>(b0: f32, b: &mut [f32]) {
+            let b0 = f64::from(b0);
+            let normalised = std::array::from_fn(|k| if k == 0 { 1.0 } else { f64::from(b[k - 1]) / b0 });
+            for (b, kept) in b.iter_mut().zip(&through_unorm16::<M>(normalised)[1..]) {
+                *b = (kept * b0) as f32;
+            }
+        }
+        if self.storage == Storage::Unorm16 && sums.b0 > 0.0 {
+            match K {
+                4 => through::<5>(sums.b0, &mut sums.b),
+                6 => through::<7>(sums.b0, &mut sums.b),
+                _ => through::<9>(sums.b0, &mut sums.b),
+            }
+        }
+    }
+
     /// Pass 1: adds a fragment, in the precision of the storage.
     fn add<const K: usize>(&self, sums: &mut PixelSums<f32, K>, ends: &mut [f32; 2], seen: Seen<f32>) {
         sums.add(seen);
@@ -501,7 +518,7 @@ impl Extractor {
         if sums.farthest == seen.view_z {
             ends[1] = seen.z;
         }
-        if self.storage.rounds() {
+        if self.storage == Storage::F16 {
             sums.b0 = round_f16(sums.b0.into()) as f32;
             sums.b = sums.b.map(|b| round_f16(b.into()) as f32);
         }
