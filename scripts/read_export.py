@@ -166,11 +166,12 @@ def main():
             print("FAILED nmt predict: another shape, or not finite")
             good = False
         else:
-            # A renderer's f32 moments, against features in f64: thin pixels lose digits, all others agree.
+            # A renderer's f32 moments, against features in f64: thin pixels lose digits, of the fifth and sixth moment more; all others agree.
             off = np.sort(np.abs(predicted - whole))
+            bar, rare = (2e-3, 2e-3) if len(model["features"]) == 7 else (2e-2, 1e-2)
             most, share = off[int(0.99 * len(off))], np.mean(off > 0.02)
-            fine = bool(most <= 2e-3 and share <= 2e-3)
-            print(f"{'ok' if fine else 'FAILED'} nmt predict: 99 % within {most:.1e} (at most 2e-03), {share:.1e} of them beyond 0.02 (at most 2e-03)")
+            fine = bool(most <= bar and share <= rare)
+            print(f"{'ok' if fine else 'FAILED'} nmt predict: 99 % within {most:.1e} (at most {bar:.0e}), {share:.1e} of them beyond 0.02 (at most {rare:.0e})")
             good &= fine
     if arguments.onnx:
         import onnxruntime
