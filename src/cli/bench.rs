@@ -6,9 +6,8 @@ use super::train::BackendName;
 use super::ui::{Progress, Ui, table};
 use crate::bench::{Measurement, Network, Plan, Summary, generate, infer, network, train};
 use crate::check::onnx::library;
-use crate::dataset::build::Weighting;
 use crate::dataset::{DatasetConfig, Rows, file as dataset_file};
-use crate::features::{FeatureSet, Storage};
+use crate::features::FeatureSet;
 use crate::model::{Mlp, file};
 use crate::synth::SynthConfig;
 use anyhow::{Context, bail};
@@ -302,15 +301,7 @@ impl BenchTrain {
 impl BenchGenerate {
     fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let sources = if self.config.is_empty() {
-            let dataset = DatasetConfig {
-                features: FeatureSet::Paper,
-                training_pairs: 1,
-                validation_pairs: 1,
-                rows_per_pixel: 0,
-                storage: Storage::F32,
-                weights: Weighting::Uniform,
-                refresh: 0.0,
-            };
+            let dataset = DatasetConfig::of(FeatureSet::Paper, 1, 1);
             vec![generate::Source { name: "paper".to_owned(), seed: 1, synth: SynthConfig::paper(), dataset }]
         } else {
             let load = |path: &PathBuf| {

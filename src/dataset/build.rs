@@ -43,7 +43,8 @@ pub struct DatasetConfig {
     pub refresh: f64,
 }
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+/// Whether a value need not be written to a file.
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
@@ -106,6 +107,19 @@ pub enum DatasetError {
 }
 
 impl DatasetConfig {
+    /// A fixed dataset of these sizes: every row of a pixel, moments in f32, all rows alike.
+    pub fn of(features: FeatureSet, training_pairs: u64, validation_pairs: u64) -> Self {
+        Self {
+            features,
+            training_pairs,
+            validation_pairs,
+            rows_per_pixel: 0,
+            storage: Storage::default(),
+            weights: Weighting::default(),
+            refresh: 0.0,
+        }
+    }
+
     /// Checks the sizes.
     ///
     /// # Errors
@@ -412,15 +426,7 @@ pub(crate) mod tests {
     use crate::pixel::abuffer;
 
     pub(crate) fn sizes() -> DatasetConfig {
-        DatasetConfig {
-            features: FeatureSet::Paper,
-            training_pairs: 1,
-            validation_pairs: 1,
-            rows_per_pixel: 0,
-            storage: Storage::F32,
-            weights: Weighting::Uniform,
-            refresh: 0.0,
-        }
+        DatasetConfig::of(FeatureSet::Paper, 1, 1)
     }
 
     fn with_pixels(dataset: Dataset) -> (Dataset, [FragmentList; 2]) {

@@ -12,6 +12,7 @@ pub use checkpoint::{Checkpoint, CheckpointError};
 pub use schedule::{EpochReport, Outcome, TrainError, train};
 
 use crate::dataset::Batch;
+use crate::dataset::build::is_default;
 use crate::features::FeatureSet;
 use crate::numeric::lanes::LANES;
 use serde::{Deserialize, Serialize};
@@ -62,9 +63,6 @@ pub enum Schedule {
     Cosine,
 }
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
 fn one() -> u64 {
     1
 }
