@@ -14,6 +14,16 @@ pub enum Composite {
     /// # Source
     /// NMT24 Eq. 7.
     Normalised,
+    /// Σ a w C + (1 − Σ a w) C_bg; sums need not be kept.
+    ///
+    /// # Source
+    /// Meshkin 2007, [`crate::oit::weighted_sum`].
+    Sum,
+    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is 0.
+    ///
+    /// # Source
+    /// Bavoil, Myers 2008, [`crate::oit::weighted_average`].
+    Average,
 }
 
 /// A transparency method as WGSL.
