@@ -346,6 +346,63 @@ mod tests {
         compare::<8>(FeatureSet::Recentred8);
     }
 
+    /// `nmt_fragment_transmittance`, which leaves early, against `nmt_recentred`, which computes everything, with `nmt_transmittance` behind it: the same bits, for
+    /// pixels of every kind of answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
+    #[test]
+    fn early_answers_are_those_of_the_whole_computation() {
+        fn compare<const K: usize>(set: FeatureSet) {
+            let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
+            for format in SHADERS {
+                let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
+                let interpreter = Interpreter::new(&module);
+                let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+                let mut rng = stream(5, 93, K as u64);
+                // Answers by kind: nearest or hardly any others, farthest, three, four, the network.
+                let (mut kinds, mut controls) = ([0; 5], 0);
+                for round in 0..600 {
+                    let n = 1 + round % 8;
+                    let half = 10f32.powf(rng.random_range(-4.0..-0.3));
+                    let least = if round % 9 == 0 { 0.999 } else { 0.001 };
+                    let mut pixel: Vec<Seen<f32>> = (0..n)
+                        .map(|_| {
+                            let z = rng.random_range(-half..half) + 0.3;
+                            Seen { view_z: z.exp(), z, absorbance: -(1.0f32 - rng.random_range(least..0.9999)).ln() }
+                        })
+                        .collect();
+                    if round % 5 == 0 {
+                        pixel[n / 2] = pixel[0];
+                    }
+                    let mut sums = PixelSums::<f32, K>::default();
+                    pixel.iter().for_each(|&s| sums.add(s));
+                    let end = |at: f32| pixel.iter().find(|s| s.view_z == at).unwrap().z;
+                    let ends = [end(sums.nearest), end(sums.farthest)];
+                    for s in &pixel {
+                        let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
+                        let arguments: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
+                        let whole = one("nmt_recentred", arguments.clone());
+                        let (features, known) = (&whole[..set.width()], whole[set.width()]);
+                        let network = one(ENTRY, vec![Value::numbers(features)])[0];
+                        let answer = one("nmt_fragment_transmittance", arguments)[0];
+                        let expected = if known >= 0.0 { known } else { network };
+                        assert_eq!(answer.to_bits(), expected.to_bits(), "{format:?} K = {K} n = {n}: {answer} for {expected}");
+                        controls += usize::from(known >= 0.0 && answer != network);
+                        kinds[match () {
+                            () if known < 0.0 => 4,
+                            () if known == 1.0 => 0,
+                            () if s.view_z == sums.farthest => 1,
+                            () => n - 1,
+                        }
+                        .min(4)] += 1;
+                    }
+                }
+                assert!(kinds.iter().all(|&k| k > 20) && controls > 300, "{kinds:?}, {controls} controls");
+            }
+        }
+        compare::<4>(FeatureSet::Recentred);
+        compare::<6>(FeatureSet::Recentred6);
+        compare::<8>(FeatureSet::Recentred8);
+    }
+
     /// Whether two numbers are no further apart than that; false for NaN.
     fn near(a: f32, b: f32, bar: f32) -> bool {
         (a - b).abs() <= bar

@@ -5,10 +5,21 @@ use crate::features::FeatureSet;
 use crate::features::recentred::{ABSORBANCE_OFFSET, CLOSED_FORM_TOLERANCE, LEAST_HALF_RANGE};
 use std::fmt::Write;
 
-/// Writes lines of either language.
+/// Writes lines of any language.
 struct Writer {
     language: Language,
     text: String,
+    /// Blocks that are open inside of the function.
+    depth: usize,
+}
+
+/// How [`look`] hands over what is known without the network.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hand {
+    /// As the last number of the features, everything computed and no branch taken.
+    Beside,
+    /// At once, before anything is computed that only others need.
+    Early,
 }
 
 impl Writer {
@@ -21,20 +32,49 @@ impl Writer {
         self.language.literal(x as f32)
     }
 
+    fn new(language: Language) -> Self {
+        Self { language, text: String::new(), depth: 0 }
+    }
+
     fn line(&mut self, line: &str) {
         let _ = writeln!(self.text, "{line}");
+    }
+
+    /// A statement.
+    fn statement(&mut self, statement: &str) {
+        self.line(&format!("    {}{statement}", "    ".repeat(self.depth)));
+    }
+
+    /// Opens a block that runs under a condition.
+    fn open(&mut self, condition: &str) {
+        self.statement(&format!("if ({condition}) {{"));
+        self.depth += 1;
+    }
+
+    fn close(&mut self) {
+        self.depth -= 1;
+        self.statement("}");
+    }
+
+    /// Leaves the function under a condition, where answers are handed over early.
+    fn leave(&mut self, hand: Hand, condition: &str, value: &str) {
+        if hand == Hand::Early {
+            self.open(condition);
+            self.statement(&format!("return {value};"));
+            self.close();
+        }
     }
 
     /// A value that does not change.
     fn bind(&mut self, name: &str, value: &str) {
         let head = if self.wgsl() { "let" } else { "float" };
-        self.line(&format!("    {head} {name} = {value};"));
+        self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// A value that does.
     fn variable(&mut self, name: &str, value: &str) {
         let head = if self.wgsl() { "var" } else { "float" };
-        self.line(&format!("    {head} {name} = {value};"));
+        self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// `condition ? yes : no`, both computed.
@@ -77,7 +117,7 @@ const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_neare
 /// Functions of pass 1, and the one that looks at a fragment in pass 2.
 pub fn source(language: Language, set: FeatureSet) -> String {
     let (k, width) = (set.moments(), set.width());
-    let mut w = Writer { language, text: String::new() };
+    let mut w = Writer::new(language);
     let scalar = w.scalar();
     w.line("// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.");
     w.function("nmt_absorbance", &[("alpha", 0)], scalar);
@@ -101,11 +141,11 @@ pub fn source(language: Language, set: FeatureSet) -> String {
 
     w.line("// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
     w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
-    w.line("// known without the network, else -1.");
+    w.line("// known without the network, else -1. No branch is taken.");
     let result = w.array_type(width + 1);
     let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
     w.function("nmt_recentred", &parameters, &result);
-    look(&mut w, k);
+    look(&mut w, k, Hand::Beside);
     w.text
 }
 
@@ -116,8 +156,11 @@ fn own_moments(w: &mut Writer, k: usize) {
     }
 }
 
-fn look(w: &mut Writer, k: usize) {
+fn look(w: &mut Writer, k: usize, hand: Hand) {
     w.bind("others", "max(b0 - absorbance, 0.0)");
+    w.leave(hand, "v == nearest", "1.0");
+    w.leave(hand, "others <= 1e-6 * b0", "1.0");
+    w.leave(hand, "v == farthest", "exp(-others)");
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
     let least = w.number(LEAST_HALF_RANGE);
     w.bind("h", &format!("max(0.5 * (z_farthest - z_nearest), {least})"));
@@ -130,7 +173,7 @@ fn look(w: &mut Writer, k: usize) {
     for pass in 1..=k {
         for i in (pass..=k).rev() {
             let before = if i == 1 { "c".to_owned() } else { format!("c * m{}", i - 1) };
-            w.line(&format!("    m{i} = m{i} - {before};"));
+            w.statement(&format!("m{i} = m{i} - {before};"));
         }
     }
     w.bind("h1", "1.0 / h");
@@ -139,15 +182,19 @@ fn look(w: &mut Writer, k: usize) {
     w.bind("h4", "h2 * h2");
     for i in 1..=k {
         let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
-        w.line(&format!("    m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
+        w.statement(&format!("m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
     }
     w.bind("x", "clamp((z - c) / h, -1.0, 1.0)");
 
     // Three fragments, and four.
     w.bind("share3", "clamp(0.5 * (1.0 - m1), 0.0, 1.0)");
+    w.leave(hand, "n == 3.0", "exp(-(others * share3))");
     w.bind("reach", "1.0 + 2.0 * abs(c) / h");
     let epsilon = w.number(f32::EPSILON.into());
     w.bind("e1", &format!("{epsilon} * reach * b0 * per_b0"));
+    if hand == Hand::Early {
+        w.open("n == 4.0");
+    }
     w.bind("e2", "e1 * reach");
     w.bind("inner", "1.0 - m2");
     w.bind("safe_inner", "max(inner, 1e-30)");
@@ -166,18 +213,23 @@ fn look(w: &mut Writer, k: usize) {
     let tolerance = w.number(CLOSED_FORM_TOLERANCE);
     // One condition a line: short-circuit operators would branch.
     w.variable("known", "exp(-(others * share4))");
-    for (condition, value) in [
-        (format!("error * steepest > {tolerance}"), "-1.0"),
-        ("inner <= 0.0".to_owned(), "-1.0"),
-        ("gap <= 0.0".to_owned(), "-1.0"),
-        ("n != 4.0".to_owned(), "-1.0"),
-        ("n == 3.0".to_owned(), "exp(-(others * share3))"),
-        ("v == farthest".to_owned(), "exp(-others)"),
-        ("others <= 1e-6 * b0".to_owned(), "1.0"),
-        ("v == nearest".to_owned(), "1.0"),
-    ] {
+    let mut rules = vec![(format!("error * steepest > {tolerance}"), "-1.0"), ("inner <= 0.0".to_owned(), "-1.0"), ("gap <= 0.0".to_owned(), "-1.0")];
+    if hand == Hand::Beside {
+        rules.extend([
+            ("n != 4.0".to_owned(), "-1.0"),
+            ("n == 3.0".to_owned(), "exp(-(others * share3))"),
+            ("v == farthest".to_owned(), "exp(-others)"),
+            ("others <= 1e-6 * b0".to_owned(), "1.0"),
+            ("v == nearest".to_owned(), "1.0"),
+        ]);
+    }
+    for (condition, value) in rules {
         let chosen = w.select(&condition, value, "known");
-        w.line(&format!("    known = {chosen};"));
+        w.statement(&format!("known = {chosen};"));
+    }
+    if hand == Hand::Early {
+        w.leave(hand, "known >= 0.0", "known");
+        w.close();
     }
 
     // The measure, and what is left of it without its ends.
@@ -224,27 +276,28 @@ fn look(w: &mut Writer, k: usize) {
                 .collect();
         }
     }
-    items.push("known".to_owned());
-    let items = w.array(&items);
-    w.line(&format!("    return {items};\n}}"));
+    match hand {
+        Hand::Beside => {
+            items.push("known".to_owned());
+            let items = w.array(&items);
+            w.line(&format!("    return {items};\n}}"));
+        }
+        Hand::Early => {
+            let items = w.array(&items);
+            w.line(&format!("    return {ENTRY}({items});\n}}"));
+        }
+    }
 }
 
 /// The function that a renderer calls in pass 2: known answers where there are, the network where there are none.
 pub fn answer(language: Language, set: FeatureSet) -> String {
-    let (k, width) = (set.moments(), set.width());
-    let mut w = Writer { language, text: String::new() };
-    w.line(
-        "\n// Pass 2: transmittance in front of a fragment; the network runs only where nothing simpler is exact. Parameters as of nmt_recentred.",
-    );
+    let k = set.moments();
+    let mut w = Writer::new(language);
+    w.line("\n// Pass 2: transmittance in front of a fragment. Parameters as of nmt_recentred, and the same numbers; but what is known without the network returns");
+    w.line("// before the features are computed, so that groups of threads in which all is known skip them and the network.");
     let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
     let scalar = w.scalar();
     w.function("nmt_fragment_transmittance", &parameters, scalar);
-    let call = format!("nmt_recentred({}, b)", LOOK.join(", "));
-    let looked = if w.wgsl() { format!("    let looked = {call};") } else { format!("    float looked[{}] = {call};", width + 1) };
-    w.line(&looked);
-    w.line(&format!("    if (looked[{width}] >= 0.0) {{\n        return looked[{width}];\n    }}"));
-    let features: Vec<String> = (0..width).map(|i| format!("looked[{i}]")).collect();
-    let features = w.array(&features);
-    w.line(&format!("    return {ENTRY}({features});\n}}"));
+    look(&mut w, k, Hand::Early);
     w.text
 }
