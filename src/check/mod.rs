@@ -10,11 +10,13 @@ pub mod shader;
 
 use crate::export::Format;
 use crate::features::FeatureSet;
+use crate::gpu::{Gpu, compute};
 use crate::model::{Dense, Mlp, file};
 use crate::numeric::file::read;
 use crate::numeric::tolerance::AbsoluteError;
 use interpret::Interpreter;
 use rows::{CheckRows, RowKind};
+use std::cell::LazyCell;
 use std::path::Path;
 
 /// Greatest absolute error in distribution: raw features of the `paper` set reach logits of 20, where f32 sums lose this much; features of the recentred sets are of
@@ -39,11 +41,13 @@ pub struct CheckOptions {
     pub rows: usize,
     /// Extreme rows.
     pub extreme_rows: usize,
+    /// Rows in distribution that a GPU is given, and a tenth as many extreme ones.
+    pub gpu_rows: usize,
 }
 
 impl Default for CheckOptions {
     fn default() -> Self {
-        Self { rows: 100_000, extreme_rows: 20_000 }
+        Self { rows: 100_000, extreme_rows: 20_000, gpu_rows: 1_000_000 }
     }
 }
 
@@ -128,8 +132,8 @@ struct Answers {
 }
 
 impl Reference {
-    fn new(mlp: &Mlp, options: CheckOptions) -> Result<Self, String> {
-        let rows = vec![rows::in_distribution(mlp, options.rows)?, rows::extreme(mlp.feature_set().width(), options.extreme_rows)];
+    fn new(mlp: &Mlp, in_distribution: usize, extreme: usize) -> Result<Self, String> {
+        let rows = vec![rows::in_distribution(mlp, in_distribution)?, rows::extreme(mlp.feature_set().width(), extreme)];
         let controls = controls(mlp);
         let answers = rows
             .iter()
@@ -235,10 +239,15 @@ fn controls(mlp: &Mlp) -> Vec<(&'static str, Mlp)> {
 /// A format that is not there is a failed finding that names the file.
 pub fn check(mlp: &Mlp, folder: &Path, formats: &[Format], options: CheckOptions, progress: &dyn Fn(&'static str)) -> Vec<Finding> {
     progress("reference");
-    let reference = match Reference::new(mlp, options) {
+    let reference = match Reference::new(mlp, options.rows, options.extreme_rows) {
         Ok(reference) => reference,
         Err(why) => return formats.iter().map(|&f| Finding::new(f, "nmt", "computes the reference", Err(why.clone()))).collect(),
     };
+    // A GPU is quick, and gets more rows; they are made when the first export asks for them.
+    let on_gpu: LazyGpu<'_> = LazyCell::new(Box::new(|| {
+        let gpu = Gpu::shared().map_err(|why| why.to_string())?;
+        Ok(OnGpu { gpu, reference: Reference::new(mlp, options.gpu_rows, options.gpu_rows / 10) })
+    }));
     let mut findings = Vec::new();
     for &format in formats {
         progress(format.name());
@@ -253,7 +262,7 @@ pub fn check(mlp: &Mlp, folder: &Path, formats: &[Format], options: CheckOptions
         match format {
             Format::Json => check_json(mlp, &path, &bytes, &reference, &mut findings),
             Format::Onnx => check_onnx(mlp, &bytes, &reference, &mut findings),
-            _ => check_shader(mlp, format, &bytes, &reference, &mut findings),
+            _ => check_shader(mlp, format, &bytes, &reference, &on_gpu, &mut findings),
         }
     }
     findings
@@ -279,7 +288,32 @@ fn check_json(mlp: &Mlp, path: &Path, bytes: &[u8], reference: &Reference, findi
     }
 }
 
-fn check_shader(mlp: &Mlp, format: Format, bytes: &[u8], reference: &Reference, findings: &mut Vec<Finding>) {
+/// A device, and what an export must compute there.
+struct OnGpu {
+    gpu: &'static Gpu,
+    reference: Result<Reference, String>,
+}
+
+impl OnGpu {
+    fn compare(&self, format: Format, text: &str, width: usize) -> Finding {
+        const TOOL: &str = "gpu";
+        let source = match format {
+            Format::Glsl | Format::GlslPacked => compute::Source::Glsl(text),
+            _ => compute::Source::Wgsl(text),
+        };
+        match &self.reference {
+            Err(why) => Finding::new(format, TOOL, "computes the reference", Err(why.clone())),
+            Ok(reference) => reference.compare(format, TOOL, |rows| {
+                compute::run_rows(self.gpu, source, crate::export::shader::ENTRY, rows, width).map_err(|e| format!("{}: {e}", self.gpu.name()))
+            }),
+        }
+    }
+}
+
+/// Made when the first export asks for it; why not, where there is no adapter.
+type LazyGpu<'a> = LazyCell<Result<OnGpu, String>, Box<dyn FnOnce() -> Result<OnGpu, String> + 'a>>;
+
+fn check_shader(mlp: &Mlp, format: Format, bytes: &[u8], reference: &Reference, on_gpu: &LazyGpu<'_>, findings: &mut Vec<Finding>) {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(error) => return findings.push(Finding::new(format, "naga", "parses and validates", Err(error.to_string()))),
@@ -303,7 +337,10 @@ fn check_shader(mlp: &Mlp, format: Format, bytes: &[u8], reference: &Reference, 
     findings.push(
         reference.compare(format, "interpreter", |rows| interpreter.call_rows(crate::export::shader::ENTRY, rows, width).map_err(|e| e.to_string())),
     );
-    findings.push(Finding::skipped(format, "gpu", "computes the reference", "this version executes shaders on the CPU only".to_owned()));
+    findings.push(match &**on_gpu {
+        Ok(on_gpu) => on_gpu.compare(format, text, width),
+        Err(why) => Finding::skipped(format, "gpu", "computes the reference", why.clone()),
+    });
 }
 
 fn check_onnx(mlp: &Mlp, bytes: &[u8], reference: &Reference, findings: &mut Vec<Finding>) {
@@ -335,7 +372,7 @@ mod tests {
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::file::Replace;
 
-    const FEW: CheckOptions = CheckOptions { rows: 2000, extreme_rows: 500 };
+    const FEW: CheckOptions = CheckOptions { rows: 2000, extreme_rows: 500, gpu_rows: 4000 };
 
     fn failures(findings: &[Finding]) -> Vec<String> {
         let failed = findings.iter().filter_map(|f| match &f.status {
