@@ -211,7 +211,7 @@ mod tests {
             let exact = crate::pixel::abuffer::list_transmittance(&list);
             let cpu = Neural::new(mlp.clone()).transmittance(&list, Context::default(), &|_| {}).unwrap();
             let error = |t: &[f32]| AbsoluteError::of(&t.iter().map(|&t| t.into()).collect::<Vec<f64>>(), &exact);
-            for format in [Format::Wgsl, Format::WgslPacked] {
+            for format in [Format::Wgsl, Format::WgslPlain] {
                 let method = MethodShader::neural(&mlp, format).unwrap();
                 let found = weights(gpu, &method, &list, None, None).unwrap();
                 // Greatest difference of the nearest 99 %.
