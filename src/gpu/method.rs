@@ -54,14 +54,15 @@ impl MethodShader {
     /// A network, by the shader source that `format` exports.
     ///
     /// # Errors
-    /// [`GpuError::Source`] where the format is no WGSL, or the network's answer is no transmittance.
+    /// [`GpuError::Source`] where the format is no WGSL, the network does not fit into f16, or its answer is no transmittance.
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, GpuError> {
         let label = || format!("neural:{}", mlp.name());
         let set = mlp.feature_set();
-        if !matches!(format, Format::Wgsl | Format::WgslPacked) {
+        if !matches!(format, Format::Wgsl | Format::WgslPlain | Format::WgslF16 | Format::WgslPlainF16) {
             return Err(GpuError::Source { label: label(), reason: format!("{} is not WGSL", format.name()) });
         }
-        let export = String::from_utf8(crate::export::encode(mlp, format)).expect("shader source is text");
+        let export = crate::export::encode(mlp, format).map_err(|e| GpuError::Source { label: label(), reason: e.to_string() })?;
+        let export = String::from_utf8(export).expect("shader source is text");
         let k = set.moments();
         let moments = |base: &str, from: usize| (0..k).map(|i| format!("{base}[{}]", i + from)).collect::<Vec<_>>().join(", ");
         let glue = match set {
@@ -92,7 +93,10 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 "
             .to_owned(),
             FeatureSet::DeepWeightedBlended => {
-                return Err(GpuError::Source { label: label(), reason: "its answer is a blending weight, and has no place in these passes".to_owned() });
+                return Err(GpuError::Source {
+                    label: label(),
+                    reason: "its answer is a blending weight, and has no place in these passes".to_owned(),
+                });
             }
         };
         let source = format!("{export}{glue}");
@@ -131,10 +135,9 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
     pub fn depth_range(&self, list: &FragmentList, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<[f32; 2], GpuError> {
         match self.depth {
             MomentDepthKind::Window => {
-                let planes = planes.or(list.planes()).ok_or_else(|| GpuError::Source {
-                    label: self.name.clone(),
-                    reason: crate::pixel::DepthError::NoPlanes.to_string(),
-                })?;
+                let planes = planes
+                    .or(list.planes())
+                    .ok_or_else(|| GpuError::Source { label: self.name.clone(), reason: crate::pixel::DepthError::NoPlanes.to_string() })?;
                 Ok([planes.near(), planes.far()])
             }
             MomentDepthKind::Log | MomentDepthKind::None => {
