@@ -57,7 +57,7 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     /// Render a scene, or convert a deep image, to a fragment list.
     Scene(scene::Scene),
-    /// Measure how fast training, generation and inference are.
+    /// Measure how fast training, generation, inference and transparency methods are.
     Bench(bench::Bench),
     /// Make a model file from the weights of another program.
     Import(import::Import),
