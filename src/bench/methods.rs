@@ -14,7 +14,7 @@ use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// The GPU's passes with nothing in them: every weight is 1. What it costs, every method costs.
+/// The GPU's passes without a method: every weight is 1, once a fragment and its pixel's total are there. What it costs, nearly every method costs.
 pub const NONE: &str = "none";
 
 /// Why costs could not be measured.
@@ -365,7 +365,7 @@ impl Setting<'_> {
     fn shaders(&self, contenders: &[Contender], formats: &[Format], half: bool, left_out: &mut Vec<LeftOut>) -> Vec<(MethodShader, About)> {
         // b0 in f32, and a colour target of four half-precision channels.
         let none = About { bits: 96, transmittance: true, network: None, format: None, arithmetic: "f32" };
-        let mut shaders = vec![(MethodShader::alike(NONE, Composite::Normalised), none)];
+        let mut shaders = vec![(MethodShader::empty(NONE), none)];
         for contender in contenders {
             match contender {
                 Contender::Method(method) => match MethodShader::classic(&method.name()) {

@@ -36,9 +36,9 @@ const HEIGHT: i32 = 640;
 /// Where the axes lie: left, right, top, bottom \[pixels\].
 const FRAME: [i32; 4] = [92, WIDTH - 24, 56, HEIGHT - 86];
 /// Size of labels \[pixels\].
-const LABEL: f64 = 14.0;
+const LABEL: f64 = 16.0;
 /// Height of a label's line, and width of one of its letters on average \[pixels\].
-const LETTER: [f64; 2] = [15.0, 7.0];
+const LETTER: [f64; 2] = [15.0, 7.2];
 /// Colour-blind safe: classic methods, networks, the front (Okabe and Ito's palette).
 const COLORS: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(120, 120, 120)];
 
@@ -71,7 +71,7 @@ fn places(at: &[(f64, f64)], labels: &[&str], lines: &[[(f64, f64); 2]], frame: 
     for (&(x, y), label) in at.iter().zip(labels) {
         let (w, h) = (LETTER[1] * label.chars().count() as f64 + 4.0, LETTER[0]);
         let mut best = (f64::INFINITY, [0.0; 4]);
-        for reach in [9.0, 24.0, 42.0, 66.0, 96.0, 130.0] {
+        for reach in [9.0, 24.0, 42.0, 66.0, 96.0, 130.0, 170.0] {
             for turn in 0..16 {
                 let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(turn) / 8.0);
                 // The label's nearest point lies at the reach.
@@ -81,7 +81,7 @@ fn places(at: &[(f64, f64)], labels: &[&str], lines: &[[(f64, f64); 2]], frame: 
                 let covered: f64 = taken.iter().map(|t| overlap(&place, t)).sum();
                 let crossed: f64 = leaders.iter().map(|l| crossing(&place, l[0], l[1])).sum();
                 let led = if reach > 9.0 { taken.iter().map(|t| crossing(t, (x, y), (cx, cy)) * 0.5).sum::<f64>() } else { 0.0 };
-                let cost = 20.0 * outside + 4.0 * covered + crossed + led + 1.2 * reach + if turn == 0 { 0.0 } else { 3.0 };
+                let cost = 40.0 * outside + 40.0 * covered + crossed + led + 1.2 * reach + if turn == 0 { 0.0 } else { 3.0 };
                 if cost < best.0 {
                     best = (cost, place);
                 }

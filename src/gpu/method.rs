@@ -109,10 +109,9 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         let depth = match self.depth {
             MomentDepthKind::Log => {
                 "
-// Moment depth of v; range holds the scene's least and greatest v.
+// Moment depth of v; range holds 1/v0 and 2/ln(v1/v0), v0 and v1 the scene's least and greatest v.
 fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
-    let warped = 2.0 * log(v / range.x) / max(log(range.y / range.x), 1e-30) - 1.0;
-    return select(0.0, clamp(warped, -1.0, 1.0), range.y > range.x);
+    return clamp(log(v * range.x) * range.y - 1.0, -1.0, 1.0);
 }
 "
             }
@@ -128,7 +127,7 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
         format!("{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n", directives.join("\n"), self.sums, include_str!("prelude.wgsl"), rest.join("\n"))
     }
 
-    /// What `oit_depth` measures depths by: extremes of the scene, or the camera's planes.
+    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene 1/v0 and 2/ln(v1/v0), or the camera's planes.
     ///
     /// # Errors
     /// [`GpuError::Source`] where planes are needed and unknown.
@@ -142,7 +141,10 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
             }
             MomentDepthKind::Log | MomentDepthKind::None => {
                 let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
-                Ok([v0, v1])
+                let (v0, v1) = (f64::from(v0), f64::from(v1));
+                // Where both are one, all depths are 0 = ln(e v/v0) - 1.
+                let scale = if v1 > v0 { [1.0 / v0, 2.0 / libm::log(v1 / v0)] } else { [std::f64::consts::E / v0, 1.0] };
+                Ok(scale.map(|x| x as f32))
             }
         }
     }

@@ -27,10 +27,12 @@ fn complex_conjugate(a: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(a.x, -a.y);
 }
 
-// cos and sin of half the angle that stands for depth z.
+// cos and sin of half the angle that stands for depth z. Both passes must take the same point for a depth, and it must lie on the circle, to all digits: the angle's
+// own are worth less. A Newton step towards length 1 makes up for what the device's functions leave.
 fn half_circle_point(z: f32) -> vec2<f32> {
     let angle = TRIGONOMETRIC_HALF_ARC * (0.5 + 0.5 * z);
-    return vec2<f32>(cos(angle), sin(angle));
+    let point = vec2<f32>(cos(angle), sin(angle));
+    return point * (1.5 - 0.5 * dot(point, point));
 }
 
 // The point of the circle itself: x^2 of a point x.

@@ -296,7 +296,7 @@ fn table_text(t: &Table, repeat: usize) -> String {
     let error = if t.costs.iter().any(|c| c.image_mse.is_some()) { "image MSE" } else { "T-MSE" };
     let what = match t.front_is_of {
         FrontTime::Weights => format!(
-            "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1: what loads, stores and the composite cost everybody."
+            "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1 and has only the fragment and its pixel's total to load."
         ),
         FrontTime::Both => {
             "Classic methods are this program's f64 reference code, not SIMD; networks f32 SIMD, their passes not apart. For a fair race see a GPU."
