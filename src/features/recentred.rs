@@ -41,6 +41,27 @@ pub const DESCRIPTION: [&str; 12] = [
     "So pixels of up to three fragments, and all that is nearest or farthest, never need the network.",
 ];
 
+/// Absorbance of a fragment, as the exported `nmt_absorbance` computes it.
+pub fn absorbance<R: Real>(alpha: R) -> R {
+    let c = R::from_f64;
+    if alpha < c(0.03) {
+        alpha * (R::ONE + alpha * (c(0.5) + alpha * (c(0.33333334) + alpha * (c(0.25) + alpha * c(0.2)))))
+    } else {
+        -(R::ONE - alpha).max(c(0.000045399931)).ln()
+    }
+}
+
+/// Moment depth of view depth v between v0 and v1, as the exported `nmt_moment_depth` computes it.
+pub fn moment_depth<R: Real>(v: f32, [v0, v1]: [f32; 2]) -> R {
+    if v1 > v0 {
+        let [v, v0, v1] = [v, v0, v1].map(R::from_f32);
+        let two = R::from_f64(2.0);
+        clamp(two * (v / v0).ln() / (v1 / v0).ln().max(R::from_f64(1e-30)) - R::ONE, -R::ONE, R::ONE)
+    } else {
+        R::ZERO
+    }
+}
+
 /// A pixel after pass 1.
 ///
 /// # Source
