@@ -14,7 +14,7 @@ use deep_weighted_blended::LinearRange;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
-use recentred::{Known, PixelSums, Seen};
+use recentred::{Known, PixelSums, Rounding, Seen};
 use serde::{Deserialize, Serialize};
 
 /// A feature set: which numbers, in which order, of which moments.
@@ -226,6 +226,19 @@ pub enum Storage {
     Unorm16,
 }
 
+impl Storage {
+    /// What it does to moments.
+    pub fn rounding(self) -> Rounding<f32> {
+        match self {
+            Self::F32 => Rounding::of_arithmetic(),
+            // Ten bits after the point.
+            Self::F16 => Rounding { unit: 1.0 / 1024.0, every_addition: true },
+            // Half a step through the transform's inverse, whose columns add up to 3.
+            Self::Unorm16 => Rounding { unit: 1.5 / 65535.0, every_addition: false },
+        }
+    }
+}
+
 /// Rows that [`Extractor::sample`] has made, and what it works in.
 #[derive(Debug, Clone, Default)]
 pub struct Sampled {
@@ -421,7 +434,7 @@ impl Extractor {
         let mut seen = Vec::with_capacity(pixel.len());
         let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut seen);
         for (row, seen) in out.chunks_exact_mut(width + 1).zip(seen) {
-            row[width] = match sums.look(seen, ends) {
+            row[width] = match sums.look_at_stored(seen, ends, self.storage.rounding()) {
                 Known::Transmittance(t) => {
                     row[..width].fill(0.0);
                     t
@@ -509,7 +522,7 @@ impl Extractor {
                 order.swap(i, rng.random_range(i..n));
             }
             let chosen = order[i] as usize;
-            if let Known::Features(first, measure) = sums.look(seen(chosen), ends) {
+            if let Known::Features(first, measure) = sums.look_at_stored(seen(chosen), ends, self.storage.rounding()) {
                 rows.features.extend_from_slice(&first);
                 rows.features.extend_from_slice(&measure);
                 rows.targets.push(in_front(view_z, absorbance, at(view_z, chosen)));

@@ -565,7 +565,7 @@ mod tests {
                 .map(|p| case.fragments.pixel(p).view_z.iter().map(|v| v.to_bits()).collect::<std::collections::HashSet<_>>().len())
                 .sum::<usize>()
         };
-        assert!(distinct(&of("window-depth")) < distinct(&of("log-depth")) * 9 / 10);
+        assert!(distinct(&of("window-depth")) < distinct(&of("log-depth")) * 99 / 100);
     }
 
     #[test]

@@ -269,6 +269,63 @@ impl Execution {
     }
 }
 
+/// Two moments in double precision, in two readings: what a method that keeps no more can know of a pixel.
+///
+/// Both take the fragment's own absorbance out and answer the ends exactly, as networks do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TwoMoments {
+    /// The middle of the sharp bounds on the absorbance in front that two moments leave.
+    Bounds,
+    /// A network whose features of the third and fourth moment are those of the beta law that has the first two.
+    Beta,
+}
+
+impl TwoMoments {
+    /// The method; a network is asked in the second reading only.
+    pub fn subject(self, mlp: &Mlp) -> Subject<'static> {
+        let name = match self {
+            Self::Bounds => "two moments, bounds @ f64".to_owned(),
+            Self::Beta => format!("two moments, neural:{} @ f64", mlp.name()),
+        };
+        let mlp = mlp.clone();
+        Subject::new(name, Promise::Ends, move |f| {
+            on_pixels(&mlp, f, |pixel, out| {
+                let (nearest, farthest) = ends(pixel);
+                let depth = LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into()));
+                let z = |v: f32| depth.as_ref().map_or(f64::NAN, |warp| warp.moment(ViewZ(v.into())).0);
+                let seen: Vec<Seen<f64>> = pixel
+                    .view_z
+                    .iter()
+                    .zip(pixel.alpha)
+                    .map(|(&view_z, &alpha)| Seen { view_z, z: z(view_z), absorbance: absorbance(alpha) })
+                    .collect();
+                let mut sums = PixelSums::<f64, 2>::default();
+                seen.iter().for_each(|&s| sums.add(s));
+                for (out, &s) in out.iter_mut().zip(&seen) {
+                    *out = match sums.look(s, [z(nearest), z(farthest)]) {
+                        Known::Transmittance(t) => t,
+                        Known::Features([x, count, log], [mean, spread]) => match self {
+                            Self::Bounds => {
+                                let others = libm::exp(log) - f64::from(recentred::ABSORBANCE_OFFSET);
+                                let variance = spread * (1.0 - mean * mean);
+                                let gap = x - mean;
+                                // Cantelli: the mass on the far side of x is at most that of the atom at x and another one.
+                                let far = variance / (variance + gap * gap);
+                                let share = if gap > 0.0 { 1.0 - 0.5 * far } else { 0.5 * far };
+                                libm::exp(-others * share)
+                            }
+                            Self::Beta => {
+                                let row = [x, count, log, mean, spread, mean * (1.0 - spread) / (1.0 + spread), (spread / (1.0 + 2.0 * spread)).sqrt()];
+                                mlp.forward::<f64>(&row.map(|f| f as f32))
+                            }
+                        },
+                    };
+                }
+            })
+        })
+    }
+}
+
 /// A network's method without rounding: moments in f64 about the pixel's own centre, where they lose nothing.
 fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
     if !is_recentred(mlp.feature_set()) {
@@ -359,7 +416,8 @@ fn answer_of<R: Real, const K: usize>(
             Known::Transmittance(t) => t.to_f64(),
             Known::Features(first, measure) => {
                 let row: Vec<f32> = first.iter().chain(&measure).map(|f| f.to_f64() as f32).collect();
-                mlp.forward::<R>(&row).to_f64()
+                // As nmt_fragment_transmittance does.
+                mlp.forward::<R>(&row).min(R::ONE).to_f64()
             }
         };
     }
