@@ -20,5 +20,6 @@ pub mod numeric;
 pub mod oit;
 pub mod pixel;
 pub mod scene;
+pub mod stress;
 pub mod synth;
 pub mod train;

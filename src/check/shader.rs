@@ -2,6 +2,7 @@
 
 use super::interpret::Interpreter;
 use crate::export::Format;
+use crate::export::recentred::ROUNDING;
 use crate::export::shader::{Form, Kind, Language, Precision};
 use crate::model::Mlp;
 use crate::numeric::quantise::round_f16_of_f32;
@@ -109,7 +110,7 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
             expected_names.push(biases_name);
         }
     }
-    if let Some((name, _)) = constants.iter().find(|(name, _)| name.starts_with(PREFIX) && !expected_names.contains(name)) {
+    if let Some((name, _)) = constants.iter().find(|(name, _)| name.starts_with(PREFIX) && name != ROUNDING && !expected_names.contains(name)) {
         return Err(format!("constant '{name}' belongs to no layer of the network"));
     }
     Ok(())

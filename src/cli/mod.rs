@@ -11,6 +11,7 @@ mod interrupt;
 mod predict;
 mod run;
 mod scene;
+mod stress;
 mod train;
 mod ui;
 
@@ -59,6 +60,8 @@ enum Command {
     Scene(scene::Scene),
     /// Measure how fast training, generation and inference are.
     Bench(bench::Bench),
+    /// Find out where methods break: numerical stability of each, case by case.
+    Stress(stress::Stress),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -109,6 +112,7 @@ pub fn main() -> ExitCode {
         Command::Evaluate(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
+        Command::Stress(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

@@ -89,9 +89,9 @@ impl Language {
 
 /// Numbers of one precision in one language.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Numbers {
-    language: Language,
-    precision: Precision,
+pub(super) struct Numbers {
+    pub language: Language,
+    pub precision: Precision,
 }
 
 impl Numbers {
@@ -148,7 +148,7 @@ impl Numbers {
     }
 
     /// `const NAME: TYPE = value;` of a scalar.
-    fn scalar_constant(self, name: &str, value: f32) -> String {
+    pub fn scalar_constant(self, name: &str, value: f32) -> String {
         match self.language {
             Language::Wgsl => format!("const {name}: {} = {};\n", self.scalar(), self.literal(value)),
             Language::Glsl => format!("const float {name} = {};\n", self.literal(value)),

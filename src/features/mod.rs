@@ -14,7 +14,7 @@ use deep_weighted_blended::LinearRange;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
-use recentred::{Known, PixelSums, Seen};
+use recentred::{Known, PixelSums, Rounding, Seen};
 use serde::{Deserialize, Serialize};
 
 /// A feature set: which numbers, in which order, of which moments.
@@ -192,6 +192,7 @@ pub struct Extractor {
     set: FeatureSet,
     kind: Kind,
     storage: Storage,
+    frame: MomentFrame,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -199,6 +200,17 @@ enum Kind {
     Paper(CameraPlanes),
     DeepWeightedBlended(LinearRange),
     Recentred(LogWarp),
+}
+
+/// What moment depth −1 and 1 stand for while pass 1 adds moments up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MomentFrame {
+    /// The extremes of the scene: one pass. A pixel much thinner than the scene loses moments to rounding.
+    #[default]
+    Scene,
+    /// The pixel's own nearest and farthest fragment, which a prepass has found: whatever the pixel's range, rounding is that of the sums alone.
+    Pixel,
 }
 
 /// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
@@ -212,6 +224,19 @@ pub enum Storage {
     F16,
     /// RGBA16 targets: moments, normalised by an f32 b_0, go through the transform that fills their range and are rounded to 16 bits, once a pixel.
     Unorm16,
+}
+
+impl Storage {
+    /// What it does to moments.
+    pub fn rounding(self) -> Rounding<f32> {
+        match self {
+            Self::F32 => Rounding::of_arithmetic(),
+            // Ten bits after the point.
+            Self::F16 => Rounding { unit: 1.0 / 1024.0, every_addition: true },
+            // Half a step through the transform's inverse, whose columns add up to 3.
+            Self::Unorm16 => Rounding { unit: 1.5 / 65535.0, every_addition: false },
+        }
+    }
 }
 
 /// Rows that [`Extractor::sample`] has made, and what it works in.
@@ -329,7 +354,7 @@ impl Extractor {
                 range().and_then(|(v0, v1)| LogWarp::new(v0, v1)).map(Kind::Recentred)?
             }
         };
-        Ok(Self { set, kind, storage: Storage::F32 })
+        Ok(Self { set, kind, storage: Storage::F32, frame: MomentFrame::Scene })
     }
 
     /// An extractor for the pixels of a list; planes and range that are not given are the list's own.
@@ -345,6 +370,11 @@ impl Extractor {
     /// The same with moments in another precision; `paper`'s and `deep-weighted-blended`'s sums stay in f64, as they were published.
     pub fn with_storage(self, storage: Storage) -> Self {
         Self { storage, ..self }
+    }
+
+    /// The same with moments in another frame; sets that take no moments of logarithmic depth have none but their own.
+    pub fn with_frame(self, frame: MomentFrame) -> Self {
+        Self { frame, ..self }
     }
 
     /// The feature set.
@@ -383,6 +413,10 @@ impl Extractor {
     /// Pass 1 over a pixel: its fragments as both passes see them, the sums, and the moment depths of its ends.
     fn pass_1<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, seen: &mut Vec<Seen<f32>>) -> (PixelSums<f32, K>, [f32; 2]) {
         seen.clear();
+        let warp = match self.frame {
+            MomentFrame::Pixel if !pixel.is_empty() => own_warp(pixel.view_z),
+            _ => warp,
+        };
         let mut sums = PixelSums::<f32, K>::default();
         let mut ends = [0.0; 2];
         for (&view_z, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
@@ -400,7 +434,7 @@ impl Extractor {
         let mut seen = Vec::with_capacity(pixel.len());
         let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut seen);
         for (row, seen) in out.chunks_exact_mut(width + 1).zip(seen) {
-            row[width] = match sums.look(seen, ends) {
+            row[width] = match sums.look_at_stored(seen, ends, self.storage.rounding()) {
                 Known::Transmittance(t) => {
                     row[..width].fill(0.0);
                     t
@@ -457,7 +491,17 @@ impl Extractor {
 
     fn sample_of<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, most: usize, rng: &mut Stream, rows: &mut Sampled) {
         let n = pixel.len();
+        let warp = match self.frame {
+            MomentFrame::Pixel if n > 0 => own_warp(pixel.view_z),
+            _ => warp,
+        };
         rows.see(pixel, &warp);
+        if self.frame == MomentFrame::Pixel {
+            // Sixteen logarithms at once are too coarse for ratios near 1.
+            for (i, &v) in pixel.view_z.iter().enumerate() {
+                rows.depth[i / LANES].0[i % LANES] = warp.moment(ViewZ(v.into())).0 as f32;
+            }
+        }
         let Sampled { view_z, alpha_lanes, depth, absorbance, order, .. } = rows;
         let at = |lanes: &[Lanes], i: usize| lanes[i / LANES].0[i % LANES];
         let seen = |i: usize| Seen { view_z: at(view_z, i), z: at(depth, i), absorbance: at(absorbance, i) };
@@ -478,7 +522,7 @@ impl Extractor {
                 order.swap(i, rng.random_range(i..n));
             }
             let chosen = order[i] as usize;
-            if let Known::Features(first, measure) = sums.look(seen(chosen), ends) {
+            if let Known::Features(first, measure) = sums.look_at_stored(seen(chosen), ends, self.storage.rounding()) {
                 rows.features.extend_from_slice(&first);
                 rows.features.extend_from_slice(&measure);
                 rows.targets.push(in_front(view_z, absorbance, at(view_z, chosen)));
@@ -545,6 +589,12 @@ impl Extractor {
         rows.truncate(kept);
         Ok(Look { known, features: rows })
     }
+}
+
+/// The log warp between the nearest and the farthest of a pixel's fragments.
+fn own_warp(view_z: &[f32]) -> LogWarp {
+    let (nearest, farthest) = view_z.iter().fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+    LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into())).expect("depths of a fragment are positive and finite")
 }
 
 /// Rows of a set that knows nothing without a network, spread out to make room for the column that says so.

@@ -31,7 +31,8 @@ pub enum Composite {
 /// # Contract
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
 /// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
-/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it.
+/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
+/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers.
 ///
 /// No name of it but these begins with `oit_`.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,11 +76,17 @@ fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{
 
 fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
     return nmt_fragment_transmittance(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
-        array<f32, {k}>({}));
+        array<f32, {k}>({sums}));
+}}
+
+fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    return nmt_recentred(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
+        array<f32, {k}>({sums}))[{width}];
 }}
 ",
                 moments("m", 0),
-                moments("p.sums", 1)
+                sums = moments("p.sums", 1),
+                width = set.width()
             ),
             FeatureSet::Paper => "
 fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {
@@ -103,15 +110,27 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
     }
 
+    /// Whether the source has a short form of the weight.
+    pub fn has_short_weight(&self) -> bool {
+        self.source.contains("fn oit_short_weight(")
+    }
+
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
     pub fn module(&self) -> String {
         let (directives, rest): (Vec<&str>, Vec<&str>) = self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
             MomentDepthKind::Log => {
                 "
+// ln(a / b), as accurate relative to itself where a is near b as elsewhere.
+fn oit_log_ratio(a: f32, b: f32) -> f32 {
+    let s = (a - b) / (a + b);
+    let q = s * s;
+    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))), abs(s) < 0.2);
+}
+
 // Moment depth of v; range holds the scene's least and greatest v.
 fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
-    let warped = 2.0 * log(v / range.x) / max(log(range.y / range.x), 1e-30) - 1.0;
+    let warped = 2.0 * oit_log_ratio(v, range.x) / max(oit_log_ratio(range.y, range.x), 1e-30) - 1.0;
     return select(0.0, clamp(warped, -1.0, 1.0), range.y > range.x);
 }
 "
