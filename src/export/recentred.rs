@@ -3,8 +3,8 @@
 use super::shader::{ENTRY, Language, Numbers, Precision};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
-    ABSORBANCE_OFFSET, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION, MOST_ABSORBANCE,
-    NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_NOISE, USUAL_SPREAD, USUAL_SPREAD_FALL,
+    ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
+    MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use std::fmt::Write;
 
@@ -286,6 +286,7 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
     let offset = w.number(ABSORBANCE_OFFSET.into());
     let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
     let (usual, growth) = (w.number(USUAL_NOISE), w.number(NOISE_GROWTH));
+    w.bind("per_n", "1.0 / n");
     w.bind("further", &format!("reach * {growth}"));
     w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
     for i in 2..=4 {
@@ -306,12 +307,13 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         };
         match level {
             0 => {
-                let deviation = w.number(MEAN_DEVIATION);
+                let deviation = by_count(w, MEAN_DEVIATION);
                 shrunk(w, &mean, &raw, "0.0", "noise1", &deviation);
             }
             1 => {
-                let deviation = w.number(INNER_MEAN_DEVIATION);
-                shrunk(w, &mean, &raw, "mean0 * (1.0 - spread0) / (1.0 + spread0)", "noise3 * per_mass1", &format!("{deviation} * (spread0 + 0.02)"));
+                let deviation = by_count(w, INNER_MEAN_DEVIATION);
+                let expected = "mean0 * (1.0 - spread0) / (1.0 + spread0)";
+                shrunk(w, &mean, &raw, expected, "noise3 * per_mass1", &format!("({deviation}) * (spread0 + 0.02)"));
             }
             _ => w.bind(&mean, &raw),
         }
@@ -319,13 +321,13 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         let raw = format!("clamp(({second} - {mean} * {mean}) / most{level}, 0.0, 1.0)");
         match level {
             0 => {
-                let (deviation, at_eight, fall) = (w.number(SPREAD_DEVIATION), w.number(USUAL_SPREAD), w.number(USUAL_SPREAD_FALL));
-                shrunk(w, &spread, &raw, &format!("{at_eight} - {fall} * count"), "noise2 / most0", &deviation);
+                let (deviation, expected) = (by_count(w, SPREAD_DEVIATION), by_count(w, USUAL_SPREAD));
+                shrunk(w, &spread, &raw, &expected, "noise2 / most0", &deviation);
             }
             1 => {
-                let deviation = w.number(INNER_SPREAD_DEVIATION);
-                let expected = "spread0 / (1.0 + spread0 + spread0)";
-                shrunk(w, "square1", &raw, expected, "noise4 * per_mass1 / most1", &format!("{deviation} * (spread0 + 0.02)"));
+                let (deviation, usual) = (by_count(w, INNER_SPREAD_DEVIATION), by_count(w, USUAL_INNER_SPREAD));
+                let expected = format!("({usual}) * spread0 / (1.0 + spread0 + spread0)");
+                shrunk(w, "square1", &raw, &expected, "noise4 * per_mass1 / most1", &format!("({deviation}) * (spread0 + 0.02)"));
                 w.bind(&spread, "sqrt(square1)");
             }
             _ => w.bind(&spread, &format!("sqrt({raw})")),
@@ -363,6 +365,11 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         }
         Hand::Early => w.give_answer(&items),
     }
+}
+
+/// a + b/n.
+fn by_count(w: &Writer, quantity: ByCount) -> String {
+    format!("{} + {} * per_n", w.number(quantity.many), w.number(quantity.few))
 }
 
 /// Twin of the function of this name beside the features.

@@ -3,14 +3,17 @@
 //! Methods as published keep their published behaviour, and their failures are counted as what they are; methods that promise something are held to it.
 
 pub mod arithmetic;
+pub mod bias;
 pub mod cases;
 pub mod classic;
+pub mod plot;
+pub mod random;
 pub mod subject;
 pub mod sweep;
 
 pub use cases::{Case, Fragments};
 pub use classic::Classic;
-pub use subject::{Execution, Promise, Subject};
+pub use subject::{Doubles, Execution, Promise, Subject};
 
 use crate::numeric::rng::stream;
 use serde::Serialize;
@@ -19,7 +22,7 @@ use serde::Serialize;
 pub const LEAST_RISE: f64 = 1e-6;
 
 /// Orders, besides the given one, that a case is answered in.
-const ORDERS: u64 = 2;
+const ORDERS: u64 = 1;
 
 /// What a method made of a case. Errors are of those answers that are finite; the counts say how many are not.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -106,8 +109,8 @@ impl Report {
     }
 }
 
-/// Puts a method through a case.
-pub fn measure(case: &Case, subject: &Subject<'_>) -> Report {
+/// Puts a method through a case. `doubles` is what methods without rounding have answered to this case.
+pub fn measure(case: &Case, subject: &Subject<'_>, doubles: &mut Doubles) -> Report {
     let mut report = Report::empty(&subject.name, case.name, subject.promise);
     let f = &case.fragments;
     report.fragments = f.len() as u64;
@@ -139,11 +142,11 @@ pub fn measure(case: &Case, subject: &Subject<'_>) -> Report {
         if let Some(e) = Errors::of(&answers, &case.exact) {
             (report.worst_error, report.p999_error, report.mse) = (Some(e.worst), Some(e.p999), Some(e.mse));
         }
-        if let Some(Ok(double)) = subject.double(f) {
+        if let Some(double) = subject.double(f, doubles) {
             // Where the input is no number there is nothing to round.
             let known = |values: &[f64]| -> Vec<f64> { values.iter().zip(&case.exact).map(|(&v, e)| if e.is_nan() { f64::NAN } else { v }).collect() };
-            report.approximation_mse = Errors::of(&double, &case.exact).map(|e| e.mse);
-            if let Some(e) = Errors::of(&answers, &known(&double)) {
+            report.approximation_mse = Errors::of(double, &case.exact).map(|e| e.mse);
+            if let Some(e) = Errors::of(&answers, &known(double)) {
                 (report.worst_rounding, report.rounding_mse) = (Some(e.worst), Some(e.mse));
             }
         }
@@ -226,110 +229,31 @@ mod tests {
     #[test]
     fn faults_are_seen() {
         let case = case("far-from-origin");
-        let clean = measure(&case, &exact_but("exact", |_, t| t));
+        let clean = measure(&case, &exact_but("exact", |_, t| t), &mut Doubles::default());
         assert_eq!((clean.worst_error, clean.nonfinite, clean.rises), (Some(0.0), 0, 0));
         // Sums in another order.
         assert!(clean.order_spread < 1e-14);
         assert!(clean.broken().is_empty());
 
-        let nan = measure(&case, &exact_but("nan", |i, t| if i == 7 { f64::NAN } else { t }));
+        let nan = measure(&case, &exact_but("nan", |i, t| if i == 7 { f64::NAN } else { t }), &mut Doubles::default());
         assert_eq!((nan.nonfinite, nan.worst_error), (1, Some(0.0)));
         assert!(nan.order_nonfinite > 0 && nan.broken()[0].contains("not finite"));
 
-        let beyond = measure(&case, &exact_but("beyond", |_, t| t * 1.5));
+        let beyond = measure(&case, &exact_but("beyond", |_, t| t * 1.5), &mut Doubles::default());
         assert!(beyond.out_of_range > 0 && beyond.worst_error == Some(0.5) && beyond.nearest_not_one >= case.fragments.pixels() as u64);
         assert!(beyond.broken().iter().any(|b| b.contains("outside [0, 1]")) && beyond.broken().iter().any(|b| b.contains("nearest")));
 
-        let rising = measure(&case, &exact_but("rising", |_, t| 1.0 - t));
+        let rising = measure(&case, &exact_but("rising", |_, t| 1.0 - t), &mut Doubles::default());
         assert!(rising.rises > 1000 && rising.greatest_rise > 0.1);
 
-        let order = measure(&case, &exact_but("order", |i, t| t * if i % 2 == 0 { 1.0 } else { 0.9 }));
+        let order = measure(&case, &exact_but("order", |i, t| t * if i % 2 == 0 { 1.0 } else { 0.9 }), &mut Doubles::default());
         assert!(order.order_spread > 0.05);
 
-        let single = measure(&super::tests::case("single"), &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-16 } else { t }));
+        let single = measure(&super::tests::case("single"), &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-15 } else { t }), &mut Doubles::default());
         assert_eq!((single.single_not_one, single.nearest_not_one), (1, 1));
 
-        let refused = measure(&case, &Subject::new("none", Promise::Ends, |_| Err("no".to_owned())));
+        let refused = measure(&case, &Subject::new("none", Promise::Ends, |_| Err("no".to_owned())), &mut Doubles::default());
         assert_eq!((refused.refused.as_deref(), refused.worst_error, refused.broken().len()), (Some("no"), None, 0));
-    }
-
-    #[test]
-    #[ignore]
-    fn experiment_conditioning() {
-        use crate::features::recentred::{Known, PixelSums, Seen};
-        use crate::model::file;
-        use crate::pixel::{LogWarp, ViewZ, absorbance};
-        let mlp = file::load(std::path::Path::new("models/recommended.json")).unwrap();
-        let warp = LogWarp::new(ViewZ(0.1f32.into()), ViewZ(100.0)).unwrap();
-        for half in [0.2, 0.1, 0.05, 0.03, 0.02, 0.01, 0.003] {
-            let f = sweep::of_half_range(half, 4000);
-            let exact = { let mut e = vec![0.0; f.len()]; for p in 0..f.pixels() { crate::pixel::abuffer::transmittance(f.pixel(p), &mut e[f.range(p)]); } e };
-            let run = |sums_double: bool, look_double: bool| {
-                let out = subject::each_pixel(&f, |pixel, out| {
-                    let seen: Vec<Seen<f32>> = pixel.view_z.iter().zip(pixel.alpha).map(|(&v, &a)| Seen { view_z: v, z: warp.moment(ViewZ(v.into())).0 as f32, absorbance: absorbance(a) as f32 }).collect();
-                    let wide = |s: &Seen<f32>| Seen { view_z: s.view_z, z: f64::from(s.z), absorbance: f64::from(s.absorbance) };
-                    let mut s32 = PixelSums::<f32, 4>::default();
-                    let mut s64 = PixelSums::<f64, 4>::default();
-                    for s in &seen { s32.add(*s); s64.add(wide(s)); }
-                    let b32 = if sums_double { PixelSums::<f32, 4> { b0: s64.b0 as f32, b: s64.b.map(|b| b as f32), ..s32 } } else { s32 };
-                    let b64 = if sums_double { s64 } else { PixelSums::<f64, 4> { b0: s32.b0.into(), b: s32.b.map(f64::from), count: s32.count, nearest: s32.nearest, farthest: s32.farthest } };
-                    let end = |v: f32| seen.iter().find(|s| s.view_z == v).unwrap().z;
-                    let ends = [end(s32.nearest), end(s32.farthest)];
-                    for (o, s) in out.iter_mut().zip(&seen) {
-                        let known32 = b32.look(*s, ends);
-                        if let (true, Known::Features(..)) = (look_double, known32) {
-                            if let Known::Features(a, b) = b64.look(wide(s), ends.map(f64::from)) {
-                                let row: Vec<f32> = a.iter().chain(&b).map(|x| *x as f32).collect();
-                                *o = mlp.forward::<f64>(&row);
-                                continue;
-                            }
-                        }
-                        *o = match known32 { Known::Transmittance(t) => t.into(), Known::Features(a, b) => mlp.forward::<f64>(&[a[0], a[1], a[2], b[0], b[1], b[2], b[3]]) };
-                    }
-                });
-                Errors::of(&out, &exact).unwrap().mse
-            };
-            println!("half {half}: sums32 look32 {:.3e}  sums32 look64 {:.3e}  sums64->f32 look32 {:.3e} sums64 look64 {:.3e}", run(false, false), run(false, true), run(true, false), run(true, true));
-        }
-    }
-
-    #[test]
-    #[ignore]
-    fn measure_range() {
-        use crate::model::file;
-        use subject::{Arithmetic, TwoMoments};
-        let model = std::env::var("MODEL").unwrap_or("models/recommended.json".to_owned());
-        let mlp = file::load(std::path::Path::new(&model)).unwrap();
-        let of = |e: Execution| Subject::network(&mlp, e).unwrap();
-        let u = Execution::default();
-        let pixel = Execution { frame: crate::features::MomentFrame::Pixel, ..u };
-        let subjects = [
-            of(u),
-            of(Execution { arithmetic: Arithmetic::Shader, ..u }),
-            of(Execution { arithmetic: Arithmetic::Worst, ..u }),
-            of(pixel),
-            of(Execution { arithmetic: Arithmetic::Shader, ..pixel }),
-            of(Execution { arithmetic: Arithmetic::Worst, ..pixel }),
-            TwoMoments::Bounds.subject(&mlp),
-            TwoMoments::Beta.subject(&mlp),
-            Subject::method(crate::oit::parse("moment-power-4").unwrap(), None),
-        ];
-        let halves: Vec<f64> = std::env::var("HALVES").map_or(sweep::HALF_RANGES.to_vec(), |s| s.split(',').map(|x| x.parse().unwrap()).collect());
-        println!("{:8} {:>10} | added % usual shader worst | prepass: usual shader worst | MSE usual bounds beta power4", "half", "approx");
-        for half in halves {
-            let f = sweep::of_half_range(half, 4000);
-            let p = sweep::points("half_range", half, &f, &subjects);
-            let a: Vec<String> = p[..6].iter().map(|p| format!("{:8.1}", 100.0 * p.added().unwrap())).collect();
-            println!(
-                "{half:8} {:10.3e} | {} | {:.3e} {:.3e} {:.3e} {:.3e}",
-                p[0].approximation_mse.unwrap(),
-                a.join(" "),
-                p[0].mse.unwrap(),
-                p[6].mse.unwrap(),
-                p[7].mse.unwrap(),
-                p[8].mse.unwrap()
-            );
-        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::arithmetic::{Flushed, Fused, Rough, Worst};
 use super::cases::Fragments;
-use crate::features::recentred::{self, Known, PixelSums, Seen};
+use crate::features::recentred::{self, Known, PixelSums, Rounding, Seen};
 use crate::features::{Extractor, FeatureSet, MomentFrame, Storage};
 use crate::model::{Dense, Mlp, ShapeError};
 use crate::numeric::Real;
@@ -11,6 +11,7 @@ use crate::oit::{self, Method};
 use crate::pixel::{LogWarp, Pixel, ViewZ, absorbance};
 use rayon::prelude::*;
 use serde::Serialize;
+use std::collections::HashMap;
 
 /// What is promised of a method's answers, whatever it is fed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -38,7 +39,7 @@ pub struct Subject<'a> {
     /// Whether its answers are transmittances, so that errors can be stated.
     pub transmittance: bool,
     run: Run<'a>,
-    double: Option<Run<'a>>,
+    double: Option<(String, Run<'a>)>,
 }
 
 impl<'a> Subject<'a> {
@@ -47,14 +48,21 @@ impl<'a> Subject<'a> {
         Self { name: name.into(), promise, transmittance: true, run: Box::new(run), double: None }
     }
 
-    /// The same with what the method would answer in double precision, so that rounding can be told from approximation.
-    pub fn with_double(self, double: impl Fn(&Fragments) -> Answers + Send + Sync + 'a) -> Self {
-        Self { double: Some(Box::new(double)), ..self }
+    /// The same with what the method would answer in double precision, so that rounding can be told from approximation. Subjects whose double has the same name share
+    /// its answers.
+    pub fn with_double(self, name: impl Into<String>, double: impl Fn(&Fragments) -> Answers + Send + Sync + 'a) -> Self {
+        Self { double: Some((name.into(), Box::new(double))), ..self }
     }
 
     /// The same with another method as the one without rounding.
     pub fn with_method_as_double(self, double: Box<dyn Method>) -> Self {
-        self.with_double(move |f| run_method(&*double, f))
+        self.with_double(double.name(), move |f| run_method(&*double, f))
+    }
+
+    /// The same with a network in double precision as the method without rounding.
+    pub fn with_network_as_double(self, mlp: &Mlp) -> Self {
+        let mlp = mlp.clone();
+        self.with_double(format!("neural:{}", mlp.name()), move |f| double_precision(&mlp, f))
     }
 
     /// A method, and where there is one the same method without rounding.
@@ -75,11 +83,11 @@ impl<'a> Subject<'a> {
     /// [`ShapeError`] where the weights of a format that is too small for them become infinite.
     pub fn network(mlp: &Mlp, execution: Execution) -> Result<Self, ShapeError> {
         let quantised = execution.weights.of(mlp)?;
-        let (original, name) = (mlp.clone(), format!("neural:{}{}", mlp.name(), execution.suffix()));
+        let name = format!("neural:{}{}", mlp.name(), execution.suffix());
         let set = mlp.feature_set();
         let promise = if is_recentred(set) { Promise::Ends } else { Promise::Range };
         let subject = Self::new(name, promise, move |f| execution.run(&quantised, f));
-        Ok(Self { transmittance: set != FeatureSet::DeepWeightedBlended, ..subject }.with_double(move |f| double_precision(&original, f)))
+        Ok(Self { transmittance: set != FeatureSet::DeepWeightedBlended, ..subject }.with_network_as_double(mlp))
     }
 
     /// Its answers.
@@ -90,11 +98,17 @@ impl<'a> Subject<'a> {
         checked((self.run)(fragments), fragments)
     }
 
-    /// Its answers without rounding, where it has such; refused as [`Self::answers`].
-    pub fn double(&self, fragments: &Fragments) -> Option<Answers> {
-        self.double.as_ref().map(|double| checked(double(fragments), fragments))
+    /// Its answers without rounding, where it has such and takes the fragments; `doubles` holds those of the same fragments that are known already.
+    pub fn double<'d>(&self, fragments: &Fragments, doubles: &'d mut Doubles) -> Option<&'d [f64]> {
+        let (name, double) = self.double.as_ref()?;
+        let answers = doubles.0.entry(name.clone()).or_insert_with(|| checked(double(fragments), fragments));
+        answers.as_deref().ok()
     }
 }
+
+/// Answers without rounding to one set of fragments, by the name of what gave them.
+#[derive(Debug, Default)]
+pub struct Doubles(HashMap<String, Answers>);
 
 fn checked(answers: Answers, fragments: &Fragments) -> Answers {
     match answers {
@@ -269,6 +283,66 @@ impl Execution {
     }
 }
 
+/// Rounds to a number of significant binary digits, halves away from 0.
+pub(super) fn to_digits(x: f64, digits: u32) -> f64 {
+    let dropped = 53 - digits;
+    if dropped == 0 || !x.is_finite() {
+        return x;
+    }
+    f64::from_bits((x.to_bits() + (1 << (dropped - 1))) & !((1 << dropped) - 1))
+}
+
+/// A network whose moments are kept with so many significant binary digits, rounded after every addition; everything else is in double precision.
+///
+/// # Panics
+/// Unless there are 2 to 53 digits.
+pub fn with_digits(mlp: &Mlp, digits: u32, frame: MomentFrame) -> Subject<'static> {
+    assert!((2..=53).contains(&digits), "{digits} digits");
+    let name = format!("neural:{}{}", mlp.name(), if frame == MomentFrame::Pixel { " @ prepass" } else { "" });
+    let rounding = Rounding { unit: libm::exp2(1.0 - f64::from(digits)), every_addition: true };
+    let network = mlp.clone();
+    Subject::new(name, Promise::Ends, move |f| {
+        let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
+        on_pixels(&network, f, |pixel, out| {
+            let range = if frame == MomentFrame::Pixel { ends(pixel) } else { (v0, v1) };
+            let depth = LogWarp::new(ViewZ(range.0.into()), ViewZ(range.1.into()));
+            let z = |v: f32| depth.as_ref().map_or(f64::NAN, |warp| warp.moment(ViewZ(v.into())).0);
+            match network.feature_set().moments() {
+                4 => answer_digits::<4>(&network, pixel, z, digits, rounding, out),
+                6 => answer_digits::<6>(&network, pixel, z, digits, rounding, out),
+                _ => answer_digits::<8>(&network, pixel, z, digits, rounding, out),
+            }
+        })
+    })
+    .with_network_as_double(mlp)
+}
+
+fn answer_digits<const K: usize>(mlp: &Mlp, pixel: Pixel<'_>, z: impl Fn(f32) -> f64, digits: u32, rounding: Rounding<f64>, out: &mut [f64]) {
+    let (nearest, farthest) = ends(pixel);
+    let seen: Vec<Seen<f64>> = seen_by(pixel, &z);
+    let mut sums = PixelSums::<f64, K>::default();
+    for &s in &seen {
+        sums.add(s);
+        sums.b = sums.b.map(|b| to_digits(b, digits));
+        sums.b0 = to_digits(sums.b0, digits);
+    }
+    for (out, &s) in out.iter_mut().zip(&seen) {
+        *out = match sums.look_at_stored(s, [z(nearest), z(farthest)], rounding) {
+            Known::Transmittance(t) => t,
+            Known::Features(first, measure) => {
+                let row: Vec<f32> = first.iter().chain(&measure).map(|&f| f as f32).collect();
+                mlp.forward::<f64>(&row)
+            }
+        };
+    }
+}
+
+/// Fragments of a pixel in double precision.
+fn seen_by(pixel: Pixel<'_>, z: impl Fn(f32) -> f64) -> Vec<Seen<f64>> {
+    let one = |(&view_z, &alpha): (&f32, &f32)| Seen { view_z, z: z(view_z), absorbance: absorbance(alpha) };
+    pixel.view_z.iter().zip(pixel.alpha).map(one).collect()
+}
+
 /// Two moments in double precision, in two readings: what a method that keeps no more can know of a pixel.
 ///
 /// Both take the fragment's own absorbance out and answer the ends exactly, as networks do.
@@ -293,12 +367,7 @@ impl TwoMoments {
                 let (nearest, farthest) = ends(pixel);
                 let depth = LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into()));
                 let z = |v: f32| depth.as_ref().map_or(f64::NAN, |warp| warp.moment(ViewZ(v.into())).0);
-                let seen: Vec<Seen<f64>> = pixel
-                    .view_z
-                    .iter()
-                    .zip(pixel.alpha)
-                    .map(|(&view_z, &alpha)| Seen { view_z, z: z(view_z), absorbance: absorbance(alpha) })
-                    .collect();
+                let seen = seen_by(pixel, z);
                 let mut sums = PixelSums::<f64, 2>::default();
                 seen.iter().for_each(|&s| sums.add(s));
                 for (out, &s) in out.iter_mut().zip(&seen) {

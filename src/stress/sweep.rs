@@ -2,7 +2,7 @@
 
 use super::Errors;
 use super::cases::Fragments;
-use super::subject::Subject;
+use super::subject::{Doubles, Subject};
 use crate::oit::Context;
 use crate::pixel::abuffer;
 use crate::synth::config::{CountLaw, DepthLaw, FragmentCount, PixelRange, Range};
@@ -17,6 +17,9 @@ pub const HALF_RANGES: [f64; 18] =
 
 /// Numbers of fragments.
 pub const COUNTS: [u32; 11] = [3, 4, 6, 8, 16, 32, 64, 128, 256, 1024, 4096];
+
+/// Significant binary digits that moments are kept with: 11 in half precision, 24 in single, 53 in double.
+pub const DIGITS: [u32; 15] = [8, 10, 11, 12, 14, 16, 18, 20, 22, 24, 28, 32, 36, 44, 53];
 
 /// Errors of a method at one place of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -85,11 +88,12 @@ pub fn points(sweep: &'static str, x: f64, fragments: &Fragments, subjects: &[Su
     for p in 0..fragments.pixels() {
         abuffer::transmittance(fragments.pixel(p), &mut exact[fragments.range(p)]);
     }
+    let mut doubles = Doubles::default();
     subjects
         .iter()
         .map(|subject| {
             let answers = subject.answers(fragments).unwrap_or_default();
-            let double = subject.double(fragments).and_then(Result::ok);
+            let double = subject.double(fragments, &mut doubles);
             let errors = Errors::of(&answers, &exact);
             Point {
                 method: subject.name.clone(),
@@ -97,8 +101,8 @@ pub fn points(sweep: &'static str, x: f64, fragments: &Fragments, subjects: &[Su
                 x,
                 fragments: fragments.len() as u64,
                 mse: errors.map(|e| e.mse),
-                approximation_mse: double.as_ref().and_then(|d| Errors::of(d, &exact)).map(|e| e.mse),
-                rounding_mse: double.as_ref().and_then(|d| Errors::of(&answers, d)).map(|e| e.mse),
+                approximation_mse: double.and_then(|d| Errors::of(d, &exact)).map(|e| e.mse),
+                rounding_mse: double.and_then(|d| Errors::of(&answers, d)).map(|e| e.mse),
                 worst_error: errors.map(|e| e.worst),
                 nonfinite: answers.iter().filter(|t| !t.is_finite()).count() as u64,
             }
