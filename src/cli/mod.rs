@@ -58,7 +58,7 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     /// Render a scene, or convert a deep image, to a fragment list.
     Scene(scene::Scene),
-    /// Measure how fast training, generation and inference are.
+    /// Measure how fast training, generation, inference and transparency methods are.
     Bench(bench::Bench),
     /// Find out where methods break: numerical stability of each, case by case.
     Stress(stress::Stress),

@@ -3,6 +3,7 @@
 use super::device::{Dispatch, Gpu, GpuError, groups};
 use super::method::MethodShader;
 use crate::pixel::{CameraPlanes, FragmentList};
+use std::time::Instant;
 
 /// A fragment list on the device.
 #[derive(Debug)]
@@ -54,7 +55,7 @@ pub struct Passes<'a> {
     parameters: wgpu::Buffer,
 }
 
-/// Seconds of both passes on the device, or none where it has no timestamps.
+/// Seconds of both passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PassSeconds {
     /// Pass 1, a thread a pixel.
@@ -160,16 +161,46 @@ impl<'a> Passes<'a> {
     /// # Errors
     /// [`GpuError::Refused`].
     pub fn run(&self, gpu: &Gpu) -> Result<Option<PassSeconds>, GpuError> {
-        let list = self.list;
-        let mut first = vec![&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.sums];
-        let mut second = vec![&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.weights];
-        first.extend(&self.ranges);
-        second.extend(&self.ranges);
-        let dispatches = [
-            Dispatch { pipeline: &self.accumulate, buffers: &first, groups: groups(list.pixels as u64) },
-            Dispatch { pipeline: &self.weigh, buffers: &second, groups: groups(list.fragments as u64) },
-        ];
+        let (first, second) = (self.accumulate_buffers(), self.weigh_buffers());
+        let dispatches = [self.accumulate_dispatch(&first), self.weigh_dispatch(&second)];
         Ok(gpu.run(&self.name, &dispatches)?.map(|s| PassSeconds { accumulate: s[0], weights: s[1] }))
+    }
+
+    /// Runs both passes and says how long each took: by the device's clock where it has one, else by the wall's, each pass submitted and waited for by itself.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`].
+    pub fn time(&self, gpu: &Gpu) -> Result<PassSeconds, GpuError> {
+        if let Some(seconds) = self.run(gpu)? {
+            return Ok(seconds);
+        }
+        let wall = |dispatch: Dispatch<'_>| {
+            let start = Instant::now();
+            gpu.run(&self.name, &[dispatch])?;
+            Ok(start.elapsed().as_secs_f64())
+        };
+        Ok(PassSeconds {
+            accumulate: wall(self.accumulate_dispatch(&self.accumulate_buffers()))?,
+            weights: wall(self.weigh_dispatch(&self.weigh_buffers()))?,
+        })
+    }
+
+    fn accumulate_buffers(&self) -> Vec<&wgpu::Buffer> {
+        let list = self.list;
+        [&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.sums].into_iter().chain(&self.ranges).collect()
+    }
+
+    fn weigh_buffers(&self) -> Vec<&wgpu::Buffer> {
+        let list = self.list;
+        [&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.weights].into_iter().chain(&self.ranges).collect()
+    }
+
+    fn accumulate_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {
+        Dispatch { pipeline: &self.accumulate, buffers, groups: groups(self.list.pixels as u64) }
+    }
+
+    fn weigh_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {
+        Dispatch { pipeline: &self.weigh, buffers, groups: groups(self.list.fragments as u64) }
     }
 
     /// Weights of all fragments, in the order of the list.
