@@ -26,6 +26,9 @@ pub enum GpuError {
         /// What it lacks.
         feature: &'static str,
     },
+    /// The fragment list makes no image.
+    #[error("there is no image: {0}")]
+    NoImage(String),
     /// More data than a buffer of the device holds.
     #[error("{what} takes {bytes} bytes, and {adapter} holds at most {most} in one buffer; take fewer fragments")]
     TooLarge {
@@ -104,12 +107,18 @@ impl Gpu {
     pub fn open() -> Result<Self, GpuError> {
         // Looking for OpenGL alone makes some drivers write to stderr.
         match std::env::var_os("WGPU_BACKEND") {
-            Some(_) => Self::open_on(wgpu::Backends::all()),
-            None => Self::open_on(wgpu::Backends::PRIMARY).or_else(|_| Self::open_on(wgpu::Backends::all())),
+            Some(_) => Self::open_on(wgpu::Backends::all(), WANTED),
+            None => Self::open_on(wgpu::Backends::PRIMARY, WANTED).or_else(|_| Self::open_on(wgpu::Backends::all(), WANTED)),
         }
     }
 
-    fn open_on(backends: wgpu::Backends) -> Result<Self, GpuError> {
+    /// A device that does not use these features, whatever the adapter has.
+    #[cfg(test)]
+    pub(crate) fn open_without(features: wgpu::Features) -> Result<Self, GpuError> {
+        Self::open_on(wgpu::Backends::all(), WANTED - features)
+    }
+
+    fn open_on(backends: wgpu::Backends, wanted: wgpu::Features) -> Result<Self, GpuError> {
         pollster::block_on(async {
             let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
             let instance = wgpu::Instance::new(descriptor.with_env());
@@ -129,7 +138,7 @@ impl Gpu {
             let info = adapter.get_info();
             let descriptor = wgpu::DeviceDescriptor {
                 label: Some("nmt"),
-                required_features: adapter.features() & WANTED,
+                required_features: adapter.features() & wanted,
                 required_limits: adapter.limits(),
                 memory_hints: wgpu::MemoryHints::Performance,
                 ..Default::default()

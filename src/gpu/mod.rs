@@ -6,6 +6,7 @@ pub mod compute;
 pub mod device;
 pub mod list;
 pub mod method;
+pub mod pipeline;
 
 pub use device::{Gpu, GpuError};
 pub use method::MethodShader;

@@ -1,0 +1,8 @@
+// What pass 1 left in a pixel.
+
+OIT_TEXTURES
+
+fn oit_sums(at: vec2<i32>) -> array<f32, OIT_SUMS> {
+    OIT_LOADS
+    return array<f32, OIT_SUMS>(OIT_PARTS);
+}
