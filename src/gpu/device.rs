@@ -252,6 +252,12 @@ impl Gpu {
         Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents: bytes, usage }))
     }
 
+    /// A uniform buffer that holds these words.
+    pub fn uniform(&self, what: &'static str, words: &[u32]) -> wgpu::Buffer {
+        let contents = bytemuck::cast_slice(words);
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents, usage: wgpu::BufferUsages::UNIFORM })
+    }
+
     /// A storage buffer of zeros.
     ///
     /// # Errors

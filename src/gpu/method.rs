@@ -21,7 +21,8 @@ pub enum Composite {
 /// # Contract
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
 /// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
-/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it.
+/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
+/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers.
 ///
 /// No name of it but these begins with `oit_`.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,11 +65,17 @@ fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{
 
 fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
     return nmt_fragment_transmittance(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
-        array<f32, {k}>({}));
+        array<f32, {k}>({sums}));
+}}
+
+fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    return nmt_recentred(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
+        array<f32, {k}>({sums}))[{width}];
 }}
 ",
                 moments("m", 0),
-                moments("p.sums", 1)
+                sums = moments("p.sums", 1),
+                width = set.width()
             ),
             FeatureSet::Paper => "
 fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {
@@ -90,6 +97,11 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         };
         let source = format!("{export}{glue}");
         Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
+    }
+
+    /// Whether the source has a short form of the weight.
+    pub fn has_short_weight(&self) -> bool {
+        self.source.contains("fn oit_short_weight(")
     }
 
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.

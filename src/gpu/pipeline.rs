@@ -147,7 +147,7 @@ pub struct Shaders {
     pub resolve: String,
 }
 
-const FRAME: &str = include_str!("pipeline/frame.wgsl");
+pub(super) const FRAME: &str = include_str!("pipeline/frame.wgsl");
 const POINTS: &str = include_str!("pipeline/points.wgsl");
 const PASS1: &str = include_str!("pipeline/pass1.wgsl");
 const STATE: &str = include_str!("pipeline/state.wgsl");
@@ -429,13 +429,7 @@ impl<'a> Pipeline<'a> {
             };
             let words = [range[0].to_bits(), range[1].to_bits(), drawing.width, drawing.height];
             let words = [words, [background[0].to_bits(), background[1].to_bits(), background[2].to_bits(), 0]];
-            let frame = device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("frame"),
-                size: 32,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            });
-            gpu.queue.write_buffer(&frame, 0, bytemuck::cast_slice(words.as_flattened()));
+            let frame = gpu.uniform("frame", words.as_flattened());
 
             let added = Target { format, holds: Holds::Added { first: 0, count: 4 } };
             let blended = |t: Target| Some(wgpu::ColorTargetState { format: t.format, blend: Some(t.blend()), write_mask: wgpu::ColorWrites::ALL });
@@ -520,6 +514,15 @@ impl<'a> Pipeline<'a> {
         let Some(timer) = timer else { return Ok(None) };
         let seconds = timer.seconds(gpu)?;
         Ok(Some(FrameSeconds { accumulate: seconds[..draws].iter().sum(), weights: seconds[draws], resolve: seconds[draws + 1] }))
+    }
+
+    /// Draws the frame and fetches it.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`].
+    pub fn render(&self, gpu: &Gpu) -> Result<Rendered, GpuError> {
+        let seconds = self.run(gpu)?;
+        Ok(Rendered { width: self.drawing.width, height: self.drawing.height, pixels: self.image(gpu)?, seconds })
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
@@ -631,14 +634,13 @@ pub fn render(
 ) -> Result<Rendered, GpuError> {
     let drawing = Drawing::new(gpu, list)?;
     let range = method.depth_range(list, planes, depth_range)?;
-    let pipeline = Pipeline::new(gpu, &drawing, method, range, background, ColorStorage::default())?;
-    let seconds = pipeline.run(gpu)?;
-    Ok(Rendered { width: drawing.width, height: drawing.height, pixels: pipeline.image(gpu)?, seconds })
+    Pipeline::new(gpu, &drawing, method, range, background, ColorStorage::F32)?.render(gpu)
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::evaluate::gpu::channel_differences;
     use crate::evaluate::{Image, flip, image};
     use crate::export::Format;
     use crate::gpu::tests::gpu;
@@ -674,16 +676,12 @@ pub(crate) mod tests {
 
     /// Greatest channel differences of pixels, in order; NaN is infinite.
     pub fn differences(a: &Image, b: &Image) -> Vec<f64> {
-        assert_eq!(a.pixels().len(), b.pixels().len());
-        let of = |(a, b): (&[f64; 3], &[f64; 3])| {
-            a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
-        };
-        let mut all: Vec<f64> = a.pixels().iter().zip(b.pixels()).map(of).collect();
+        let mut all = channel_differences(a, b).unwrap();
         all.sort_by(f64::total_cmp);
         all
     }
 
-    fn agree(gpu_image: &Image, cpu: &Image) -> bool {
+    pub fn agree(gpu_image: &Image, cpu: &Image) -> bool {
         let d = differences(gpu_image, cpu);
         let (most, visible) = (d[d.len() * 999 / 1000], flip(cpu, gpu_image).unwrap().mean());
         println!("99.9 % within {most:.1e}, all within {:.1e}, FLIP {visible:.1e}", d[d.len() - 1]);
@@ -699,12 +697,15 @@ pub(crate) mod tests {
         FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), color).unwrap().with_size(width, height).unwrap()
     }
 
-    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002. Control: the same scenes seen from behind.
+    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same scenes with depths turned round.
+    ///
+    /// In a pixel of `hair` up to 160 fragments lie within a thin range, and an ulp in their depths shows: two f32 passes on the CPU, one of them with the
+    /// logarithm in f32, are as far apart as CPU and GPU are, 1e-3 to 2e-3 by the size of the image. So it is not among the scenes.
     #[test]
     fn the_image_is_the_cpu_evaluators() {
         let Some(gpu) = gpu() else { return };
         for (name, networks) in
-            [("teapots", &["recommended", "small"][..]), ("foliage", &["recommended", "moments-6"]), ("hair", &["small", "paper"])]
+            [("teapots", &["recommended", "small"][..]), ("foliage", &["recommended", "moments-6"]), ("glass-stacks", &["small", "paper"])]
         {
             let list = built_in(name, 96);
             for network in networks {
