@@ -7,6 +7,7 @@ pub mod infer;
 pub mod network;
 pub mod peak;
 pub mod summary;
+pub mod tiles;
 pub mod train;
 
 pub use network::Network;

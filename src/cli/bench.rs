@@ -29,6 +29,8 @@ enum What {
     Generate(BenchGenerate),
     /// Rows a second that a network answers, against the reference and onnxruntime.
     Infer(BenchInfer),
+    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only in the tiles that need it.
+    Tiles(super::bench_tiles::BenchTiles),
 }
 
 /// Options of every benchmark.
@@ -257,6 +259,7 @@ impl Bench {
             What::Train(c) => c.execute(ui),
             What::Generate(c) => c.execute(ui),
             What::Infer(c) => c.execute(ui),
+            What::Tiles(c) => c.execute(ui),
         }
     }
 }
