@@ -3,6 +3,8 @@
 //! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
+pub mod half;
+pub mod hlsl;
 pub mod interpret;
 pub mod onnx;
 pub mod rows;
@@ -298,7 +300,7 @@ impl OnGpu {
     fn compare(&self, format: Format, text: &str, width: usize) -> Finding {
         const TOOL: &str = "gpu";
         let source = match format {
-            Format::Glsl | Format::GlslPacked => compute::Source::Glsl(text),
+            Format::Glsl | Format::GlslPlain => compute::Source::Glsl(text),
             _ => compute::Source::Wgsl(text),
         };
         match &self.reference {
@@ -323,14 +325,19 @@ fn check_shader(mlp: &Mlp, format: Format, bytes: &[u8], reference: &Reference, 
         Err(why) => return findings.push(Finding::new(format, "naga", "parses and validates", Err(why))),
     };
     findings.push(Finding::new(format, "naga", "parses and validates", Ok(())));
-    if matches!(format, Format::Glsl | Format::GlslPacked) {
+    if matches!(format, Format::Glsl | Format::GlslPlain) {
         const TOOL: &str = "glslangValidator";
         findings.push(match shader::glslang(text) {
             Some(result) => Finding::new(format, TOOL, "compiles", result),
             None => Finding::skipped(format, TOOL, "compiles", "not installed (Debian: glslang-tools)".to_owned()),
         });
     }
-    findings.push(Finding::new(format, "naga", "weights bit for bit", shader::weights(format, &module, mlp)));
+    findings.push(Finding::new(
+        format,
+        "naga",
+        "weights bit for bit",
+        shader::constants(&module).and_then(|c| shader::weights(format.kind().expect("a shader"), &c, mlp)),
+    ));
     findings.push(Finding::new(format, "naga", "literal indices only", shader::literal_indices(&module)));
     let interpreter = Interpreter::new(&module);
     let width = mlp.feature_set().width();

@@ -1,7 +1,7 @@
 //! `nmt check`
 
 use super::Verdict;
-use super::export::{FormatName, formats};
+use super::export::FormatArguments;
 use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
 use crate::export::Format;
@@ -21,9 +21,8 @@ pub struct Check {
     /// Folder of its exports.
     #[arg(long, value_name = "DIR")]
     exports: PathBuf,
-    /// Formats to check.
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::ALL)]
-    format: Vec<FormatName>,
+    #[command(flatten)]
+    formats: FormatArguments,
     #[command(flatten)]
     options: CheckArguments,
 }
@@ -31,7 +30,7 @@ pub struct Check {
 /// Options that `check` and `run` share.
 #[derive(Args, Clone)]
 pub struct CheckArguments {
-    /// Tools whose absence is a failure: onnxruntime, glslangValidator, gpu. NMT_REQUIRE does the same.
+    /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the same.
     #[arg(long, value_delimiter = ',', value_name = "TOOLS")]
     require: Vec<String>,
 }
@@ -52,7 +51,7 @@ impl CheckArguments {
 impl Check {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let mlp = file::load(&self.model)?;
-        let findings = findings(&mlp, &self.exports, &formats(&self.format), &self.options, ui)?;
+        let findings = findings(&mlp, &self.exports, &self.formats.formats()?, &self.options, ui)?;
         if ui.json() {
             ui.print_json("check", findings.iter().map(to_json).collect())?;
         } else {

@@ -2,9 +2,11 @@
 
 use super::Verdict;
 use super::ui::Ui;
+use crate::export::shader::Precision;
 use crate::export::{self, Format};
 use crate::model::file;
 use crate::numeric::file::Replace;
+use anyhow::bail;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::PathBuf;
@@ -16,49 +18,96 @@ pub struct Export {
     /// Folder for the exports.
     #[arg(long)]
     out: PathBuf,
-    /// Formats; "wgsl" and "glsl" stand for their plain and packed forms.
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::ALL)]
-    format: Vec<FormatName>,
+    #[command(flatten)]
+    formats: FormatArguments,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
+}
+
+/// Options that say which exports are meant.
+#[derive(Args)]
+pub struct FormatArguments {
+    /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars. Without it: all but the plain ones.
+    #[arg(long, value_enum, value_delimiter = ',')]
+    format: Vec<FormatName>,
+    /// What weights and activations of the hidden layers are kept in. f16 is offered for wgsl, hlsl, metal and spirv.
+    #[arg(long, value_enum, default_value = "f32")]
+    precision: PrecisionName,
 }
 
 /// A format as it is named on the command line.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
 pub enum FormatName {
     Wgsl,
+    WgslPlain,
     Glsl,
+    GlslPlain,
+    Hlsl,
+    HlslPlain,
+    Metal,
+    Spirv,
     Json,
     Onnx,
 }
 
-impl FormatName {
-    pub const ALL: [Self; 4] = [Self::Wgsl, Self::Glsl, Self::Json, Self::Onnx];
+/// A precision as it is named on the command line.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
+pub enum PrecisionName {
+    F32,
+    F16,
+}
 
-    /// The files that a name stands for.
-    fn formats(self) -> &'static [Format] {
+impl FormatName {
+    fn format(self) -> Format {
         match self {
-            Self::Wgsl => &[Format::Wgsl, Format::WgslPacked],
-            Self::Glsl => &[Format::Glsl, Format::GlslPacked],
-            Self::Json => &[Format::Json],
-            Self::Onnx => &[Format::Onnx],
+            Self::Wgsl => Format::Wgsl,
+            Self::WgslPlain => Format::WgslPlain,
+            Self::Glsl => Format::Glsl,
+            Self::GlslPlain => Format::GlslPlain,
+            Self::Hlsl => Format::Hlsl,
+            Self::HlslPlain => Format::HlslPlain,
+            Self::Metal => Format::Metal,
+            Self::Spirv => Format::Spirv,
+            Self::Json => Format::Json,
+            Self::Onnx => Format::Onnx,
         }
     }
 }
 
-/// The files that names stand for, each once.
-pub fn formats(names: &[FormatName]) -> Vec<Format> {
-    let mut formats: Vec<Format> = names.iter().flat_map(|n| n.formats()).copied().collect();
-    formats.sort();
-    formats.dedup();
-    formats
+impl FormatArguments {
+    /// The exports that are meant, each once.
+    ///
+    /// # Errors
+    /// Where a format that is named has no such precision.
+    pub fn formats(&self) -> anyhow::Result<Vec<Format>> {
+        let precision = match self.precision {
+            PrecisionName::F32 => Precision::F32,
+            PrecisionName::F16 => Precision::F16,
+        };
+        let mut formats = Vec::new();
+        if self.format.is_empty() {
+            formats.extend(Format::DEFAULT.into_iter().filter_map(|f| f.with_precision(precision)));
+        }
+        for name in &self.format {
+            match name.format().with_precision(precision) {
+                Some(format) => formats.push(format),
+                None => bail!(
+                    "{} has no f16 form; --precision f16 is offered for wgsl, wgsl-plain, hlsl, hlsl-plain, metal and spirv",
+                    name.format().name()
+                ),
+            }
+        }
+        formats.sort();
+        formats.dedup();
+        Ok(formats)
+    }
 }
 
 impl Export {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let mlp = file::load(&self.model)?;
-        let formats = formats(&self.format);
+        let formats = self.formats.formats()?;
         let paths = export::write(&mlp, &self.out, &formats, if self.force { Replace::Yes } else { Replace::No })?;
         if ui.json() {
             let results = formats.iter().zip(&paths).map(|(f, path)| json!({ "format": f.name(), "network": mlp.shape(), "file": path })).collect();

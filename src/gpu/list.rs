@@ -48,7 +48,8 @@ pub struct Passes<'a> {
     accumulate: wgpu::ComputePipeline,
     weigh: wgpu::ComputePipeline,
     sums: wgpu::Buffer,
-    ranges: wgpu::Buffer,
+    /// Of methods that look at them.
+    ranges: Option<wgpu::Buffer>,
     weights: wgpu::Buffer,
     parameters: wgpu::Buffer,
 }
@@ -62,15 +63,14 @@ pub struct PassSeconds {
     pub weights: f64,
 }
 
-/// Pass 1 for compute, a thread a pixel.
+/// Pass 1 for compute, a thread a pixel. What stands in capitals is filled in for a method.
 const ACCUMULATE: &str = "
 @group(0) @binding(0) var<storage, read> oit_offsets: array<u32>;
 @group(0) @binding(1) var<storage, read> oit_view_z: array<f32>;
 @group(0) @binding(2) var<storage, read> oit_alpha: array<f32>;
 @group(0) @binding(3) var<storage, read> oit_parameters: array<f32>;
 @group(0) @binding(4) var<storage, read_write> oit_sums: array<f32>;
-@group(0) @binding(5) var<storage, read_write> oit_ranges: array<vec4<f32>>;
-
+OIT_RANGES
 @compute @workgroup_size(64)
 fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let pixel = id.x + id.y * groups.x * 64u;
@@ -90,7 +90,6 @@ fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(nu
         farthest = max(farthest, v);
     }
     OIT_STORE
-    oit_ranges[pixel] = vec4<f32>(f32(oit_offsets[pixel + 1u] - oit_offsets[pixel]), nearest, farthest, 0.0);
 }
 ";
 
@@ -101,9 +100,8 @@ const WEIGH: &str = "
 @group(0) @binding(2) var<storage, read> oit_alpha: array<f32>;
 @group(0) @binding(3) var<storage, read> oit_parameters: array<f32>;
 @group(0) @binding(4) var<storage, read> oit_sums: array<f32>;
-@group(0) @binding(5) var<storage, read> oit_ranges: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> oit_weights: array<f32>;
-
+@group(0) @binding(5) var<storage, read_write> oit_weights: array<f32>;
+OIT_RANGES
 @compute @workgroup_size(64)
 fn oit_weigh_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let i = id.x + id.y * groups.x * 64u;
@@ -114,7 +112,7 @@ fn oit_weigh_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wor
     let pixel = oit_pixel_of[i];
     let v = oit_view_z[i];
     let alpha = oit_alpha[i];
-    let ends = oit_ranges[pixel];
+    let ends = OIT_ENDS;
     let state = OitPixel(array<f32, OIT_SUMS>(OIT_LOAD), ends.x, ends.y, ends.z, oit_depth(ends.y, range), oit_depth(ends.z, range));
     oit_weights[i] = oit_weight(OitFragment(v, oit_depth(v, range), alpha, oit_absorbance(alpha)), state);
 }
@@ -127,11 +125,22 @@ impl<'a> Passes<'a> {
     /// [`GpuError`]: the method's source is refused, or the list does not fit.
     pub fn new(gpu: &Gpu, list: &'a DeviceList, method: &MethodShader, range: [f32; 2]) -> Result<Self, GpuError> {
         let k = method.sums;
+        // Number and range of a pixel's fragments are kept only where the method looks at them.
+        let ranges = |binding: &str, access: &str| format!("@group(0) @binding({binding}) var<storage, {access}> oit_ranges: array<vec4<f32>>;\n");
+        let store_range = if method.range {
+            "\n    oit_ranges[pixel] = vec4<f32>(f32(oit_offsets[pixel + 1u] - oit_offsets[pixel]), nearest, farthest, 0.0);"
+        } else {
+            ""
+        };
         let each = |f: &dyn Fn(usize) -> String, between: &str| (0..k).map(f).collect::<Vec<_>>().join(between);
         let accumulate = ACCUMULATE
             .replace("OIT_ADD", &each(&|i| format!("sums[{i}] += term[{i}];"), " "))
-            .replace("OIT_STORE", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " "));
-        let weigh = WEIGH.replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "));
+            .replace("OIT_STORE", &(each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " ") + store_range))
+            .replace("OIT_RANGES", &if method.range { ranges("5", "read_write") } else { String::new() });
+        let weigh = WEIGH
+            .replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "))
+            .replace("OIT_RANGES", &if method.range { ranges("6", "read") } else { String::new() })
+            .replace("OIT_ENDS", if method.range { "oit_ranges[pixel]" } else { "vec4<f32>(0.0, 1.0, 1.0, 0.0)" });
         let module = method.module();
         let parameters = [range[0], range[1], f32::from_bits(list.pixels as u32), f32::from_bits(list.fragments as u32)];
         Ok(Self {
@@ -139,7 +148,7 @@ impl<'a> Passes<'a> {
             accumulate: gpu.compute(&format!("{}, pass 1", method.name), &format!("{module}{accumulate}"), "oit_accumulate_list")?,
             weigh: gpu.compute(&format!("{}, pass 2", method.name), &format!("{module}{weigh}"), "oit_weigh_list")?,
             sums: gpu.zeros("sums of pixels", 4 * (k * list.pixels) as u64)?,
-            ranges: gpu.zeros("ranges of pixels", 16 * list.pixels as u64)?,
+            ranges: if method.range { Some(gpu.zeros("ranges of pixels", 16 * list.pixels as u64)?) } else { None },
             weights: gpu.zeros("weights", 4 * list.fragments as u64)?,
             parameters: gpu.upload("parameters", &parameters)?,
             list,
@@ -152,8 +161,10 @@ impl<'a> Passes<'a> {
     /// [`GpuError::Refused`].
     pub fn run(&self, gpu: &Gpu) -> Result<Option<PassSeconds>, GpuError> {
         let list = self.list;
-        let first = [&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.ranges];
-        let second = [&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.ranges, &self.weights];
+        let mut first = vec![&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.sums];
+        let mut second = vec![&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.weights];
+        first.extend(&self.ranges);
+        second.extend(&self.ranges);
         let dispatches = [
             Dispatch { pipeline: &self.accumulate, buffers: &first, groups: groups(list.pixels as u64) },
             Dispatch { pipeline: &self.weigh, buffers: &second, groups: groups(list.fragments as u64) },
@@ -193,32 +204,39 @@ mod tests {
     use crate::export::Format;
     use crate::gpu::tests::gpu;
     use crate::model::file;
+    use crate::numeric::tolerance::AbsoluteError;
     use crate::oit::{Context, neural::Neural};
     use crate::scene;
     use std::path::Path;
 
-    /// A shipped network over the sample list: GPU against `nmt predict`'s pass. Both are f32 and sum in the same order, but logarithms differ by some ulp, which
-    /// thin pixels magnify; 99.9 % of T within 1e-3, all within 0.1. Control: the list read backwards.
+    /// A shipped network over built-in scenes: GPU against the CPU's pass. Logarithms differ by some ulp, which thin pixels magnify; so the error against the exact
+    /// answer is compared, and where nothing is magnified the answers: T-MSE within 2 %, 99 % of T within 3e-3. Control: another pixel's answers.
     #[test]
     fn a_network_answers_as_on_the_cpu() {
         let Some(gpu) = gpu() else { return };
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mlp = file::load(&root.join("models/recommended.json")).unwrap();
-        let list = scene::read(&root.join("data/sample.npz")).unwrap();
-        let cpu = Neural::new(mlp.clone()).transmittance(&list, Context::default(), &|_| {}).unwrap();
-        for format in [Format::Wgsl, Format::WgslPacked] {
-            let method = MethodShader::neural(&mlp, format).unwrap();
-            let found = weights(gpu, &method, &list, None, None).unwrap();
-            let off = |a: &[f32]| {
-                let mut d: Vec<f32> = a.iter().zip(&cpu).map(|(a, b)| (a - b).abs()).map(|d| if d.is_nan() { 9.0 } else { d }).collect();
-                d.sort_by(f32::total_cmp);
-                (d[d.len() * 999 / 1000], d[d.len() - 1])
-            };
-            let (most, worst) = off(&found);
-            println!("{}: 99.9 % within {most:.1e}, all within {worst:.1e}", format.name());
-            assert!(found.len() > 1000 && most <= 1e-3 && worst <= 0.1, "{most:e} {worst:e}");
-            let reversed: Vec<f32> = found.iter().rev().copied().collect();
-            assert!(off(&reversed).0 > 1e-2);
+        for scene in ["teapots", "glass-stacks", "hair", "foliage"] {
+            let options = scene::Options { size: Some((96, 96)), seed: None };
+            let list = scene::build(&scene::open(scene).unwrap(), &options).unwrap();
+            let exact = crate::pixel::abuffer::list_transmittance(&list);
+            let cpu = Neural::new(mlp.clone()).transmittance(&list, Context::default(), &|_| {}).unwrap();
+            let error = |t: &[f32]| AbsoluteError::of(&t.iter().map(|&t| t.into()).collect::<Vec<f64>>(), &exact);
+            for format in [Format::Wgsl, Format::WgslPlain] {
+                let method = MethodShader::neural(&mlp, format).unwrap();
+                let found = weights(gpu, &method, &list, None, None).unwrap();
+                // Greatest difference of the nearest 99 %.
+                let off = |a: &[f32]| {
+                    let mut d: Vec<f32> = a.iter().zip(&cpu).map(|(a, b)| (a - b).abs()).map(|d| if d.is_nan() { 9.0 } else { d }).collect();
+                    d.sort_by(f32::total_cmp);
+                    d[(d.len() - 1) * 99 / 100]
+                };
+                let (ours, theirs) = (error(&found).mse(), error(&cpu).mse());
+                println!("{scene} {}: 99 % within {:.1e}; T-MSE {ours:.4e} for {theirs:.4e}", format.name(), off(&found));
+                assert!(found.len() > 1000 && off(&found) <= 3e-3 && (ours - theirs).abs() <= 0.02 * theirs, "{scene}");
+                let shifted: Vec<f32> = found.iter().cycle().skip(5).take(found.len()).copied().collect();
+                assert!(off(&shifted) > 1e-2, "the control of {scene}");
+            }
         }
     }
 }

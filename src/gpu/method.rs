@@ -14,6 +14,16 @@ pub enum Composite {
     /// # Source
     /// NMT24 Eq. 7.
     Normalised,
+    /// Σ a w C + (1 − Σ a w) C_bg; sums need not be kept.
+    ///
+    /// # Source
+    /// Meshkin 2007, [`crate::oit::weighted_sum`].
+    Sum,
+    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is 0.
+    ///
+    /// # Source
+    /// Bavoil, Myers 2008, [`crate::oit::weighted_average`].
+    Average,
 }
 
 /// A transparency method as WGSL.
@@ -45,14 +55,15 @@ impl MethodShader {
     /// A network, by the shader source that `format` exports.
     ///
     /// # Errors
-    /// [`GpuError::Source`] where the format is no WGSL, or the network's answer is no transmittance.
+    /// [`GpuError::Source`] where the format is no WGSL, the network does not fit into f16, or its answer is no transmittance.
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, GpuError> {
         let label = || format!("neural:{}", mlp.name());
         let set = mlp.feature_set();
-        if !matches!(format, Format::Wgsl | Format::WgslPacked) {
+        if !matches!(format, Format::Wgsl | Format::WgslPlain | Format::WgslF16 | Format::WgslPlainF16) {
             return Err(GpuError::Source { label: label(), reason: format!("{} is not WGSL", format.name()) });
         }
-        let export = String::from_utf8(crate::export::encode(mlp, format)).expect("shader source is text");
+        let export = crate::export::encode(mlp, format).map_err(|e| GpuError::Source { label: label(), reason: e.to_string() })?;
+        let export = String::from_utf8(export).expect("shader source is text");
         let k = set.moments();
         let moments = |base: &str, from: usize| (0..k).map(|i| format!("{base}[{}]", i + from)).collect::<Vec<_>>().join(", ");
         let glue = match set {

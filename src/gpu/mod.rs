@@ -2,6 +2,7 @@
 //!
 //! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips visibly or fails.
 
+pub mod classic;
 pub mod compute;
 pub mod device;
 pub mod list;
