@@ -51,10 +51,10 @@ pub struct Frames {
     pub samples: Vec<FrameSamples>,
 }
 
-/// Measures by turns, after a frame of each that is not counted; times are the device's own.
+/// Measures by turns, after a frame of each that is not counted; times as [`Gpu::timed`] takes them.
 ///
 /// # Errors
-/// [`GpuError::Lacks`] where the device has no timestamps, and what the passes refuse.
+/// What the passes refuse.
 pub fn frames(
     gpu: &Gpu,
     list: &FragmentList,
@@ -63,9 +63,6 @@ pub fn frames(
     repeat: usize,
     progress: &dyn Fn(u64),
 ) -> Result<Frames, GpuError> {
-    if !gpu.has_timestamps() {
-        return Err(GpuError::Lacks { adapter: gpu.name(), feature: "timestamp-query, and passes cannot be timed by themselves without" });
-    }
     let background = [1.0; 3];
     let drawing = if gpu.blends_f32() { Some(Drawing::new(gpu, list)?) } else { None };
     let drawn = drawing.as_ref().map(|drawing| Pipeline::new(gpu, drawing, method, range, background, ColorStorage::F32)).transpose()?;
@@ -75,12 +72,14 @@ pub fn frames(
     for repetition in 0..=repeat {
         for way in &mut samples {
             let compute = |s: TileSeconds| (s.accumulate, s.weights());
-            let seconds = match (way.way, &drawn) {
-                (Way::Drawn, Some(drawn)) => drawn.run(gpu)?.map(|s| (s.accumulate, s.weights + s.resolve)),
-                (Way::TilesApart, _) => tiles.run(gpu, Skip::Tiles)?.map(compute),
-                _ => tiles.run(gpu, Skip::None)?.map(compute),
+            let (accumulate, weights) = match (way.way, &drawn) {
+                (Way::Drawn, Some(drawn)) => {
+                    let s = drawn.run(gpu)?;
+                    (s.accumulate, s.weights + s.resolve)
+                }
+                (Way::TilesApart, _) => compute(tiles.run(gpu, Skip::Tiles)?),
+                _ => compute(tiles.run(gpu, Skip::None)?),
             };
-            let (accumulate, weights) = seconds.expect("the device has timestamps");
             if repetition > 0 {
                 way.accumulate.push(accumulate);
                 way.weights.push(weights);
@@ -106,16 +105,9 @@ mod tests {
         let Some(gpu) = gpu() else { return };
         let mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
         let list = scene::build(&scene::open("teapots").unwrap(), &scene::Options { size: Some((40, 30)), seed: None }).unwrap();
-        let method = MethodShader::neural(&mlp, Format::WgslPacked).unwrap();
+        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
         let range = method.depth_range(&list, None, None).unwrap();
-        let found = match frames(gpu, &list, &method, range, 2, &|_| {}) {
-            Err(GpuError::Lacks { .. }) => {
-                assert!(!gpu.has_timestamps());
-                println!("skipped: {} has no timestamps", gpu.name());
-                return;
-            }
-            found => found.unwrap(),
-        };
+        let found = frames(gpu, &list, &method, range, 2, &|_| {}).unwrap();
         assert_eq!(found.tiles.network + found.tiles.exact, 5 * 4);
         assert_eq!(found.samples.len(), if gpu.blends_f32() { 3 } else { 2 });
         for way in &found.samples {

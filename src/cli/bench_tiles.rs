@@ -35,7 +35,7 @@ impl BenchTiles {
         }
         let mut methods = Vec::new();
         for path in &self.model {
-            methods.push(MethodShader::neural(&file::load(path)?, Format::WgslPacked)?);
+            methods.push(MethodShader::neural(&file::load(path)?, Format::Wgsl)?);
         }
         let gpu = Gpu::shared()?;
         let progress = ui.progress("bench", (self.fragments.len() * methods.len() * self.repeat) as u64);
@@ -94,8 +94,10 @@ fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
         }
     }
     format!(
-        "{}{}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling tiles apart; ratio of pass 2 to compute over every tile\n",
+        "{}{}, by {}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling tiles apart; ratio of pass 2 to compute over every \
+         tile\n",
         table(&lines),
-        gpu.name()
+        gpu.name(),
+        if gpu.stamps() { "timestamps" } else { "the clock" }
     )
 }

@@ -167,14 +167,18 @@ impl Evaluate {
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::WgslPacked));
+        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
         for name in &self.methods {
             let (names, demanded) = if name == "all" { (all_names(), false) } else { (vec![name.clone()], true) };
             for name in names {
                 if seen.insert(name.clone()) {
                     let method = parse(&name)?;
-                    let path = name.strip_prefix("neural:").filter(|_| self.gpu);
-                    methods.push(Asked { method, demanded, shader: path.map(|path| shader(Path::new(path))).transpose()? });
+                    let shader = match name.strip_prefix("neural:") {
+                        _ if !self.gpu => None,
+                        Some(path) => Some(shader(Path::new(path))?),
+                        None => MethodShader::classic(&name).map(Ok),
+                    };
+                    methods.push(Asked { method, demanded, shader });
                 }
             }
         }
@@ -239,7 +243,7 @@ fn gpu_rows(gpu: &Gpu, results: &[(MethodResult, Option<GpuResult>)]) -> String 
     if results.iter().all(|r| r.1.is_none()) {
         return String::new();
     }
-    let seconds = |s: Option<f64>| s.map_or_else(|| "-".to_owned(), |s| format!("{:.2}", s * 1e3));
+    let milliseconds = |s: f64| format!("{:.2}", s * 1e3);
     let head = ["method", "99.9 % within", "worst", "FLIP to CPU", "image MSE x1e-4", "FLIP", "non-finite", "pass 1 ms", "pass 2 ms", "resolve ms"];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for r in results.iter().filter_map(|r| r.1.as_ref()) {
@@ -251,9 +255,9 @@ fn gpu_rows(gpu: &Gpu, results: &[(MethodResult, Option<GpuResult>)]) -> String 
             format!("{:.4}", r.image_mse * 1e4),
             format!("{:.4}", r.flip_mean),
             r.image_nonfinite.to_string(),
-            seconds(r.seconds_accumulate),
-            seconds(r.seconds_weights),
-            seconds(r.seconds_resolve),
+            milliseconds(r.seconds_accumulate),
+            milliseconds(r.seconds_weights),
+            milliseconds(r.seconds_resolve),
         ]);
     }
     let how = if gpu.blends_f32() { "render passes" } else { "compute passes, since it cannot blend into f32 targets" };

@@ -29,12 +29,12 @@ pub struct GpuResult {
     pub flip_mean: f64,
     /// Number of channel values that are not finite.
     pub image_nonfinite: u64,
-    /// Time of pass 1 on the device \[s\]; none where it has no timestamps.
-    pub seconds_accumulate: Option<f64>,
-    /// Time of pass 2 on the device \[s\].
-    pub seconds_weights: Option<f64>,
-    /// Time of the resolve on the device \[s\].
-    pub seconds_resolve: Option<f64>,
+    /// Time of pass 1 \[s\].
+    pub seconds_accumulate: f64,
+    /// Time of pass 2 \[s\].
+    pub seconds_weights: f64,
+    /// Time of the resolve \[s\]; 0 where pass 2 makes the colour itself.
+    pub seconds_resolve: f64,
 }
 
 /// A result with the pictures that it is of.
@@ -104,9 +104,9 @@ pub fn judge(gpu: &Gpu, method: &MethodShader, truth: &Truth<'_>, context: Conte
         image_mse: error.mse(),
         flip_mean: flip(&exact, &image)?.mean(),
         image_nonfinite: error.nonfinite(),
-        seconds_accumulate: rendered.seconds.map(|s| s.accumulate),
-        seconds_weights: rendered.seconds.map(|s| s.weights),
-        seconds_resolve: rendered.seconds.map(|s| s.resolve),
+        seconds_accumulate: rendered.seconds.accumulate,
+        seconds_weights: rendered.seconds.weights,
+        seconds_resolve: rendered.seconds.resolve,
     };
     Ok(GpuJudged { result, image, map })
 }
@@ -146,7 +146,7 @@ mod tests {
         let list = colored_list(40, 30);
         let truth = Truth::new(&list, [0.2, 0.4, 1.0]);
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
-        let method = MethodShader::neural(&mlp, Format::WgslPacked).unwrap();
+        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
         let cpu = truth.judge(&Neural::new(mlp), Context::default()).unwrap().picture.unwrap().0;
         let found = judge(gpu, &method, &truth, Context::default(), &cpu).unwrap().result;
         assert!(found.channel_difference_worst <= 1e-5 && found.flip_mean_to_cpu <= 1e-4 && found.image_mse <= 1e-9, "{found:?}");

@@ -42,8 +42,7 @@ fn power_moments(k: usize) -> String {
 
 /// Pass 1 of M trigonometric moments.
 fn trigonometric_moments(m: usize) -> String {
-    let lines: String =
-        (2..=m).map(|i| format!("    let b{i} = complex_times(b{}, x);\n", i - 1)).collect();
+    let lines: String = (2..=m).map(|i| format!("    let b{i} = complex_times(b{}, x);\n", i - 1)).collect();
     let items: Vec<String> = (1..=m).map(|i| format!("b{i}.x, b{i}.y")).collect();
     format!(
         "\nfn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{\n    let x = complex_square(half_circle_point(f.z));\n    let b1 = x * f.absorbance;\n{lines}    \
@@ -199,13 +198,22 @@ mod tests {
         for name in NAMES {
             let method = MethodShader::classic(name).unwrap();
             let found = weights(gpu, &method, &list, None, None).unwrap();
-            let stored = name.starts_with("moment").then(|| name.replace("+own", ":f32+own")).map(|n| if n.contains(":f32") { n } else { format!("{n}:f32") });
+            let stored =
+                name.starts_with("moment").then(|| name.replace("+own", ":f32+own")).map(|n| if n.contains(":f32") { n } else { format!("{n}:f32") });
             let reference = cpu(&stored.unwrap_or(name.to_owned()), &list);
             let d = apart(&found, &reference);
             let f: Vec<f64> = found.iter().map(|&x| x.into()).collect();
             let at = |q: f64| d[((d.len() - 1) as f64 * q) as usize];
-            println!("{name}: 50% {:.1e} 99% {:.1e} 99.9% {:.1e} worst {:.1e} mse {:.4e} cpu {:.4e} nonfinite {}", at(0.5), at(0.99), at(0.999), at(1.0),
-                AbsoluteError::of(&f, &exact).mse(), AbsoluteError::of(&reference, &exact).mse(), f.iter().filter(|x| !x.is_finite()).count());
+            println!(
+                "{name}: 50% {:.1e} 99% {:.1e} 99.9% {:.1e} worst {:.1e} mse {:.4e} cpu {:.4e} nonfinite {}",
+                at(0.5),
+                at(0.99),
+                at(0.999),
+                at(1.0),
+                AbsoluteError::of(&f, &exact).mse(),
+                AbsoluteError::of(&reference, &exact).mse(),
+                f.iter().filter(|x| !x.is_finite()).count()
+            );
         }
     }
 }

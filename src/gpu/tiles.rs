@@ -5,7 +5,7 @@
 //! the one over the first list runs a shader that holds no network. Neither needs blending, so that this is also the way where a device cannot blend into
 //! f32 targets.
 
-use super::device::{Gpu, GpuError, Timer};
+use super::device::{Gpu, GpuError};
 use super::method::MethodShader;
 use super::pipeline::{FRAME, FrameSeconds, Rendered, composite, size_of};
 use crate::pixel::{CameraPlanes, FragmentList};
@@ -34,7 +34,7 @@ pub struct TileCounts {
     pub exact: u32,
 }
 
-/// Seconds of the passes on the device.
+/// Seconds of the passes; see [`Gpu::timed`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TileSeconds {
     /// Pass 1.
@@ -163,11 +163,11 @@ impl TilePasses {
         })
     }
 
-    /// Runs all passes and waits for them.
+    /// Runs all passes, waits for them, and says how long they took; see [`Gpu::timed`].
     ///
     /// # Errors
     /// [`GpuError::Refused`].
-    pub fn run(&self, gpu: &Gpu, skip: Skip) -> Result<Option<TileSeconds>, GpuError> {
+    pub fn run(&self, gpu: &Gpu, skip: Skip) -> Result<TileSeconds, GpuError> {
         let all = Groups::Direct(self.width.div_ceil(TILE), self.height.div_ceil(TILE));
         let passes = match skip {
             Skip::None => vec![(&self.accumulate, all), (&self.every, all)],
@@ -179,36 +179,23 @@ impl TilePasses {
                 (&self.exact, Groups::Indirect(12)),
             ],
         };
-        let timer = gpu.has_timestamps().then(|| Timer::new(gpu, passes.len()));
-        gpu.checked(&self.name, || {
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            encoder.clear_buffer(&self.tiles, 0, Some(8));
-            for (index, (kernel, groups)) in passes.iter().enumerate() {
-                let timestamp_writes = timer.as_ref().map(|t| wgpu::ComputePassTimestampWrites {
-                    query_set: &t.queries,
-                    beginning_of_pass_write_index: Some(2 * index as u32),
-                    end_of_pass_write_index: Some(2 * index as u32 + 1),
-                });
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(&self.name), timestamp_writes });
-                pass.set_pipeline(&kernel.pipeline);
-                pass.set_bind_group(0, &kernel.group, &[]);
-                match *groups {
-                    Groups::Direct(x, y) => pass.dispatch_workgroups(x, y, 1),
-                    Groups::Indirect(offset) => pass.dispatch_workgroups_indirect(&self.dispatches, offset),
-                }
+        let s = gpu.timed(&self.name, passes.len(), |index, encoder, stamps| {
+            if index == 0 {
+                encoder.clear_buffer(&self.tiles, 0, Some(8));
             }
-            if let Some(timer) = &timer {
-                timer.resolve(&mut encoder);
+            let (kernel, groups) = passes[index];
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(&self.name), timestamp_writes: stamps.compute() });
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(0, &kernel.group, &[]);
+            match groups {
+                Groups::Direct(x, y) => pass.dispatch_workgroups(x, y, 1),
+                Groups::Indirect(offset) => pass.dispatch_workgroups_indirect(&self.dispatches, offset),
             }
-            gpu.queue.submit([encoder.finish()]);
         })?;
-        gpu.wait()?;
-        let Some(timer) = timer else { return Ok(None) };
-        let s = timer.seconds(gpu)?;
-        Ok(Some(match skip {
+        Ok(match skip {
             Skip::None => TileSeconds { accumulate: s[0], classify: 0.0, network: s[1], exact: 0.0 },
             Skip::Tiles => TileSeconds { accumulate: s[0], classify: s[1] + s[2], network: s[3], exact: s[4] },
-        }))
+        })
     }
 
     /// Runs the passes with the tiles told apart, and fetches the image.
@@ -216,7 +203,8 @@ impl TilePasses {
     /// # Errors
     /// [`GpuError::Refused`].
     pub fn render(&self, gpu: &Gpu) -> Result<Rendered, GpuError> {
-        let seconds = self.run(gpu, Skip::Tiles)?.map(|s| FrameSeconds { accumulate: s.accumulate, weights: s.weights(), resolve: 0.0 });
+        let seconds = self.run(gpu, Skip::Tiles)?;
+        let seconds = FrameSeconds { accumulate: seconds.accumulate, weights: seconds.weights(), resolve: 0.0 };
         Ok(Rendered { width: self.width, height: self.height, pixels: self.image(gpu)?, seconds })
     }
 

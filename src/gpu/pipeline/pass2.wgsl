@@ -2,7 +2,7 @@
 
 fn oit_pixel(at: vec2<i32>) -> OitPixel {
     OIT_RANGE
-    return OitPixel(oit_sums(at), n, nearest, farthest, oit_depth(nearest, oit_frame.range), oit_depth(farthest, oit_frame.range));
+    return OitPixel(oit_sums(at), oit_count(at), nearest, farthest, oit_depth(nearest, oit_frame.range), oit_depth(farthest, oit_frame.range));
 }
 
 @fragment

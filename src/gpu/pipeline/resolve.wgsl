@@ -11,5 +11,6 @@ fn oit_everywhere(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32>
 @fragment
 fn oit_resolve(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = vec2<i32>(position.xy);
-    return vec4<f32>(oit_composite(textureLoad(oit_weighted, at, 0), oit_sums(at), oit_frame.background.rgb), 1.0);
+    let weighted = textureLoad(oit_weighted, at, 0);
+    return vec4<f32>(oit_composite(weighted, oit_sums(at)[0], oit_count(at), oit_frame.background.rgb), 1.0);
 }

@@ -23,5 +23,5 @@ fn oit_shade(at: vec2<u32>) {
         let weight = alpha * OIT_WEIGHT(OitFragment(v, oit_depth(v, oit_frame.range), alpha, oit_absorbance(alpha)), state);
         weighted += vec4<f32>(weight * vec3<f32>(oit_color[3u * i], oit_color[3u * i + 1u], oit_color[3u * i + 2u]), weight);
     }
-    oit_image[pixel] = vec4<f32>(oit_composite(weighted, sums, oit_frame.background.rgb), 1.0);
+    oit_image[pixel] = vec4<f32>(oit_composite(weighted, sums[0], ends.x, oit_frame.background.rgb), 1.0);
 }
