@@ -1,6 +1,7 @@
 //! The command line: the only place that parses arguments, shows progress and prints.
 
 mod bench;
+mod bench_tiles;
 mod check;
 mod config;
 mod evaluate;

@@ -68,6 +68,11 @@ impl<'a> Truth<'a> {
         self.list
     }
 
+    /// Linear colour behind everything.
+    pub fn background(&self) -> [f64; 3] {
+        self.background
+    }
+
     /// The exact image.
     ///
     /// # Errors
@@ -143,7 +148,8 @@ pub fn sort_by_error(results: &mut [MethodResult]) {
     results.sort_by(by_error);
 }
 
-pub(super) fn by_error(a: &MethodResult, b: &MethodResult) -> Ordering {
+/// The order of [`sort_by_error`].
+pub fn by_error(a: &MethodResult, b: &MethodResult) -> Ordering {
     let key = |r: &MethodResult| {
         let error = r.image_mse.or(r.transmittance_mse);
         // 0 for numbers, 1 for NaN, 2 for none.

@@ -1,6 +1,7 @@
 //! Errors of methods against the exact answer, as numbers and as pictures.
 
 pub mod flip;
+pub mod gpu;
 pub mod image;
 pub mod judge;
 pub mod picture;
@@ -61,6 +62,9 @@ pub enum EvaluateError {
     /// A method cannot be applied to the list.
     #[error(transparent)]
     Method(#[from] MethodError),
+    /// The GPU did not draw it.
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
     /// A picture could not be written.
     #[error(transparent)]
     File(#[from] FileError),
