@@ -3,8 +3,11 @@
 //! Exact arithmetic and `libm` only: the mathematics of the platform would give other bytes on other machines.
 
 use super::config::{AlphaLaw, AlphaReading, CountLaw, DepthLaw, DepthReading, FragmentCount, PixelLaw, Range};
-use crate::numeric::rng::Stream;
-use crate::pixel::{CameraPlanes, LogWarp, MomentDepth, ViewZ, WindowDepth};
+use crate::numeric::doubles::{self, DOUBLES};
+use crate::numeric::rng::{Stream, unit};
+use crate::pixel::{CameraPlanes, LogWarp, ViewZ};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 use rand::Rng;
 use rand_distr::{Distribution, Uniform};
 
@@ -14,19 +17,75 @@ const MOST_MATERIALS: usize = 4;
 /// Least opacity of a nearly opaque fragment.
 const NEARLY_OPAQUE: f64 = 0.9;
 
-/// Uniform in [0, 1), a multiple of 2^−52.
-pub(super) fn unit(rng: &mut Stream) -> f64 {
-    (rng.next_u64() >> 12) as f64 * (1.0 / (1u64 << 52) as f64)
+/// What fills a last vector up: in the domain of all that is computed here.
+const FILLER: f64 = 0.5;
+
+/// A whole number below n of a random word, uniform but for a bias below n/2^32.
+fn below(word: u32, n: usize) -> usize {
+    ((u64::from(word) * n as u64) >> 32) as usize
 }
 
-/// A whole number below n, uniform but for a bias below n/2^32.
-fn below(rng: &mut Stream, n: usize) -> usize {
-    ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
+/// Replaces all numbers by what becomes of them, eight at a time.
+macro_rules! each {
+    ($values:expr, $simd:ident, $x:ident => $becomes:expr) => {
+        dispatch!(Level::new(), $simd => map($simd, $values, #[inline(always)] |$x| $becomes))
+    };
 }
 
-/// Uniform in [min, max].
-fn between(rng: &mut Stream, Range { min, max }: Range) -> f64 {
-    (min + (max - min) * unit(rng)).min(max)
+#[inline(always)]
+fn map<S: Simd>(simd: S, values: &mut [f64], becomes: impl Fn(f64x8<S>) -> f64x8<S>) {
+    let (whole, rest) = values.as_chunks_mut::<DOUBLES>();
+    for x in whole {
+        becomes(f64x8::from_slice(simd, x)).store_slice(x);
+    }
+    if !rest.is_empty() {
+        let mut x = [FILLER; DOUBLES];
+        x[..rest.len()].copy_from_slice(rest);
+        becomes(f64x8::from_slice(simd, &x)).store_slice(&mut x);
+        rest.copy_from_slice(&x[..rest.len()]);
+    }
+}
+
+/// The uniform law: low + scale u.
+#[derive(Debug, Clone, Copy)]
+struct Even {
+    low: f64,
+    scale: f64,
+}
+
+impl Even {
+    /// On [min, max], both ends included: the greatest u, 1 − 2^−52, gives max.
+    fn new(Range { min, max }: Range) -> Self {
+        let greatest = 1.0 - f64::EPSILON;
+        let mut scale = (max - min) / greatest;
+        while scale * greatest + min > max {
+            scale = scale.next_down();
+        }
+        Self { low: min, scale }
+    }
+
+    fn at(&self, u: f64) -> f64 {
+        u * self.scale + self.low
+    }
+
+    fn draw(&self, rng: &mut Stream) -> f64 {
+        self.at(rng.unit())
+    }
+}
+
+/// A uniform law that never leaves [min, max], whatever rounding does: min + (max − min) u.
+#[derive(Debug, Clone, Copy)]
+struct Between(Range);
+
+impl Between {
+    fn at(&self, u: f64) -> f64 {
+        let Range { min, max } = self.0;
+        (min + (max - min) * u).min(max)
+    }
+
+    fn draw(&self, rng: &mut Stream) -> f64 {
+        self.at(rng.unit())
+    }
 }
 
 /// The log-uniform law on [min, max]: every octave is as likely as any other.
@@ -44,7 +103,16 @@ impl LogUniform {
     }
 
     fn draw(&self, rng: &mut Stream) -> f64 {
-        libm::exp(self.ln_min + self.ln_ratio * unit(rng)).clamp(self.range.min, self.range.max)
+        libm::exp(self.ln_min + self.ln_ratio * rng.unit()).clamp(self.range.min, self.range.max)
+    }
+
+    /// [`Self::draw`] of all these units.
+    fn of_units(&self, units: &mut [f64]) {
+        let Self { range, ln_min, ln_ratio } = *self;
+        each!(units, simd, u => {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            doubles::exp(simd, splat(ln_min) + splat(ln_ratio) * u).max(splat(range.min)).min(splat(range.max))
+        });
     }
 }
 
@@ -62,10 +130,31 @@ impl Normal {
             return x;
         }
         // 1 − u is never 0.
-        let r = (-2.0 * libm::log(1.0 - unit(rng))).sqrt();
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(rng));
+        let r = (-2.0 * libm::log(1.0 - rng.unit())).sqrt();
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * rng.unit());
         self.spare = Some(r * sin);
         r * cos
+    }
+
+    /// The two numbers of each pair of units, in the places of those.
+    fn of_units(radii: &mut [f64], angles: &mut [f64]) {
+        #[inline(always)]
+        fn both<S: Simd>(simd: S, radii: &mut [f64; DOUBLES], angles: &mut [f64; DOUBLES]) {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            let (u, v) = (f64x8::from_slice(simd, radii), f64x8::from_slice(simd, angles));
+            let r = (splat(-2.0) * doubles::ln(simd, splat(1.0) - u)).sqrt();
+            let (sin, cos) = doubles::sincos(simd, splat(std::f64::consts::TAU) * v);
+            (r * cos).store_slice(radii);
+            (r * sin).store_slice(angles);
+        }
+        #[inline(always)]
+        fn all<S: Simd>(simd: S, radii: &mut [f64], angles: &mut [f64]) {
+            for (radii, angles) in radii.as_chunks_mut().0.iter_mut().zip(angles.as_chunks_mut().0) {
+                both(simd, radii, angles);
+            }
+        }
+        assert!(radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES), "whole vectors");
+        dispatch!(Level::new(), simd => all(simd, radii, angles));
     }
 }
 
@@ -93,14 +182,14 @@ impl Gamma {
                 continue;
             }
             let v = v * v * v;
-            let u = 1.0 - unit(rng);
+            let u = 1.0 - rng.unit();
             // The first test is cheap and settles most draws.
             if u < 1.0 - 0.0331 * (x * x) * (x * x) || libm::log(u) < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
                 break self.d * v;
             }
         };
         match self.boost {
-            Some(power) => gamma * libm::exp(power * libm::log(1.0 - unit(rng))),
+            Some(power) => gamma * libm::exp(power * libm::log(1.0 - rng.unit())),
             None => gamma,
         }
     }
@@ -109,8 +198,14 @@ impl Gamma {
 /// Memory that the pixels of one task share.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// Depth of each fragment of the shape, in about [0, 1].
+    /// Depth of each fragment: of the shape, in about [0, 1], then where it lies.
     depth: Vec<f64>,
+    /// Units of opacities, then these.
+    units: Vec<f64>,
+    /// Units of normal numbers, which then take their places, and the fragments that they are for.
+    radii: Vec<f64>,
+    angles: Vec<f64>,
+    soft: Vec<u32>,
     /// Object of each fragment: whole numbers from 0.
     object: Vec<u32>,
     /// Centre and standard deviation of each cluster.
@@ -135,7 +230,7 @@ enum Count {
 
 #[derive(Debug, Clone)]
 enum Depth {
-    Window { law: Uniform<f64>, reading: DepthReading },
+    Window { law: Even, reading: DepthReading },
     Moment { shape: Shape, half: LogUniform },
 }
 
@@ -149,14 +244,10 @@ enum Shape {
 
 #[derive(Debug, Clone)]
 enum Alpha {
-    Uniform(Uniform<f64>, AlphaReading),
+    Uniform(Even, AlphaReading),
     LogUniform(LogUniform, AlphaReading),
     Subrange(Range),
     NearOpaque { share: Range, low: LogUniform },
-}
-
-fn uniform(min: f64, max: f64) -> Uniform<f64> {
-    Uniform::new_inclusive(min, max).expect("validated: min <= max, both finite")
 }
 
 impl Law {
@@ -187,12 +278,21 @@ impl Camera {
         Self { planes, warp: LogWarp::new(near, far).expect("validated: 0 < near < far") }
     }
 
-    fn of_window(&self, w: WindowDepth) -> f32 {
-        (self.planes.view_z(w).0 as f32).clamp(self.planes.near(), self.planes.far())
+    /// Appends the view depths of window depths, which these become on the way.
+    fn of_window(&self, depth: &mut [f64], out: &mut Vec<f32>) {
+        each!(depth, simd, w => self.planes.view_z_doubles(simd, w));
+        self.within(depth, out);
     }
 
-    fn of_moment(&self, z: MomentDepth) -> f32 {
-        (self.warp.view_z(z).0 as f32).clamp(self.planes.near(), self.planes.far())
+    /// The same of moment depths.
+    fn of_moment(&self, depth: &mut [f64], out: &mut Vec<f32>) {
+        each!(depth, simd, z => self.warp.view_z_doubles(simd, z));
+        self.within(depth, out);
+    }
+
+    fn within(&self, view_z: &[f64], out: &mut Vec<f32>) {
+        let (near, far) = (self.planes.near(), self.planes.far());
+        out.extend(view_z.iter().map(|&v| (v as f32).clamp(near, far)));
     }
 }
 
@@ -215,7 +315,7 @@ impl Count {
 impl Depth {
     fn new(config: &PixelLaw) -> Self {
         let shape = match config.depth {
-            DepthLaw::Window { min, max, reading } => return Self::Window { law: uniform(min, max), reading },
+            DepthLaw::Window { min, max, reading } => return Self::Window { law: Even::new(Range { min, max }), reading },
             DepthLaw::Uniform {} => Shape::Uniform,
             DepthLaw::Clustered { clusters, width } => Shape::Clustered {
                 clusters: Uniform::new_inclusive(clusters.min, clusters.max).expect("validated: min <= max"),
@@ -232,62 +332,71 @@ impl Depth {
             Self::Window { law, reading } => {
                 scratch.object.clear();
                 scratch.object.extend(0..n as u32);
-                draw_window(rng, n, law, *reading, |w| camera.of_window(w), view_z);
+                draw_window(rng, n, law, *reading, &mut scratch.depth);
+                camera.of_window(&mut scratch.depth, view_z);
             }
             Self::Moment { shape, half } => {
                 shape.draw(rng, n, scratch);
                 let half = half.draw(rng);
-                let center = (2.0 * unit(rng) - 1.0) * (1.0 - half);
+                let center = (2.0 * rng.unit() - 1.0) * (1.0 - half);
                 stretch(&mut scratch.depth, center, half);
-                view_z.extend(scratch.depth.iter().map(|&z| camera.of_moment(MomentDepth(z))));
+                camera.of_moment(&mut scratch.depth, view_z);
             }
         }
     }
 }
 
-fn draw_window(rng: &mut Stream, n: usize, law: &Uniform<f64>, reading: DepthReading, view: impl Fn(WindowDepth) -> f32, out: &mut Vec<f32>) {
-    let anywhere = uniform(0.0, 1.0);
+/// Window depths of n fragments.
+fn draw_window(rng: &mut Stream, n: usize, law: &Even, reading: DepthReading, depth: &mut Vec<f64>) {
+    let anywhere = Even::new(Range { min: 0.0, max: 1.0 });
     match reading {
-        DepthReading::PerFragment => out.extend((0..n).map(|_| view(WindowDepth(law.sample(rng))))),
-        DepthReading::PixelExtent if n == 1 => out.push(view(WindowDepth(anywhere.sample(rng)))),
+        DepthReading::PerFragment => {
+            fill(rng, n, depth);
+            depth.iter_mut().for_each(|w| *w = law.at(*w));
+        }
+        DepthReading::PixelExtent if n == 1 => {
+            depth.clear();
+            depth.push(anywhere.draw(rng));
+        }
         DepthReading::PixelExtent => {
-            let extent = law.sample(rng);
-            let start = anywhere.sample(rng) * (1.0 - extent);
-            let place = |u: f64| view(WindowDepth((start + u * extent).clamp(0.0, 1.0)));
-            out.extend([0.0, 1.0].map(place));
-            out.extend((2..n).map(|_| place(anywhere.sample(rng))));
+            let extent = law.draw(rng);
+            let start = anywhere.draw(rng) * (1.0 - extent);
+            fill(rng, n - 2, depth);
+            depth.iter_mut().for_each(|u| *u = anywhere.at(*u));
+            depth.splice(..0, [0.0, 1.0]);
+            depth.iter_mut().for_each(|u| *u = (start + *u * extent).clamp(0.0, 1.0));
         }
     }
+}
+
+/// So many units in the place of what is there.
+fn fill(rng: &mut Stream, n: usize, units: &mut Vec<f64>) {
+    units.resize(n, 0.0);
+    rng.units(units);
 }
 
 impl Shape {
     /// Depths and objects of n fragments.
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch) {
-        let Scratch { depth, object, clusters, .. } = scratch;
-        depth.clear();
+        let Scratch { depth, object, clusters, radii, angles, soft, .. } = scratch;
         object.clear();
         match self {
-            Self::Uniform => depth.extend((0..n).map(|_| unit(rng))),
+            Self::Uniform => fill(rng, n, depth),
             Self::Clustered { clusters: count, width } => {
                 clusters.clear();
-                clusters.extend((0..count.sample(rng)).map(|_| (unit(rng), width.draw(rng))));
-                let mut normal = Normal::default();
-                for _ in 0..n {
-                    let k = below(rng, clusters.len());
-                    let (center, width) = clusters[k];
-                    // Half with soft edges, half with hard ones; √3 makes the uniform law's deviation 1.
-                    let scatter = if unit(rng) < 0.5 { normal.draw(rng) } else { (2.0 * unit(rng) - 1.0) * 3f64.sqrt() };
-                    depth.push(center + width * scatter);
-                    object.push(k as u32);
+                clusters.extend((0..count.sample(rng)).map(|_| (rng.unit(), width.draw(rng))));
+                scatter(rng, n, clusters.len(), object, depth, [radii, angles], soft);
+                for (x, &k) in depth.iter_mut().zip(&*object) {
+                    let (center, width) = clusters[k as usize];
+                    *x = center + width * *x;
                 }
                 return;
             }
             Self::Paired { gap } => {
                 let gap = gap.draw(rng);
-                while depth.len() < n {
-                    let front = unit(rng);
-                    let back = front + gap * unit(rng);
-                    depth.extend([front, back]);
+                fill(rng, n.next_multiple_of(2), depth);
+                for [front, back] in depth.as_chunks_mut().0 {
+                    *back = *front + gap * *back;
                 }
                 depth.truncate(n);
                 object.extend((0..n as u32).map(|i| i / 2));
@@ -296,6 +405,7 @@ impl Shape {
             Self::Beta { a, b } => {
                 let (a, b) = (Gamma::new(a.draw(rng)), Gamma::new(b.draw(rng)));
                 let mut normal = Normal::default();
+                depth.clear();
                 depth.extend((0..n).map(|_| {
                     let (x, y) = (a.draw(rng, &mut normal), b.draw(rng, &mut normal));
                     x / (x + y)
@@ -306,20 +416,74 @@ impl Shape {
     }
 }
 
+/// Clusters of n fragments, and how far each lies from its cluster's centre, in standard deviations: half of them by the normal and half by the uniform law.
+///
+/// Every fragment takes a word for its cluster, two to choose the law, and two or four more: normal numbers come in pairs, of which the second takes none. Which
+/// words serve what is settled first, without a branch; then all normal numbers are computed at once.
+fn scatter(
+    rng: &mut Stream,
+    n: usize,
+    clusters: usize,
+    object: &mut Vec<u32>,
+    out: &mut Vec<f64>,
+    [radii, angles]: [&mut Vec<f64>; 2],
+    soft: &mut Vec<u32>,
+) {
+    object.resize(n, 0);
+    out.resize(n, 0.0);
+    soft.resize(n, 0);
+    for units in [&mut *radii, angles] {
+        // Half of the fragments take a pair each at the most, and one place more is written ahead.
+        units.resize((n / 2 + 2).next_multiple_of(DOUBLES), FILLER);
+    }
+    let (mut pairs, mut normals, mut spare) = (0, 0, 0);
+    for i in 0..n {
+        let &[which, _, law, u0, u1, v0, v1, _] = rng.peek();
+        object[i] = below(which, clusters) as u32;
+        let (u, v) = (unit([u0, u1]), unit([v0, v1]));
+        // √3 makes the uniform law's deviation 1.
+        out[i] = (2.0 * u - 1.0) * 3f64.sqrt();
+        (radii[pairs], angles[pairs], soft[normals]) = (u, v, i as u32);
+        // Units below ½ have no highest bit.
+        let is_soft = (law >> 31 ^ 1) as usize;
+        let takes_pair = is_soft & (spare ^ 1);
+        (pairs, normals, spare) = (pairs + takes_pair, normals + is_soft, spare ^ is_soft);
+        rng.skip(3 + 2 * (is_soft ^ 1) + 4 * takes_pair);
+    }
+    let whole = pairs.next_multiple_of(DOUBLES);
+    Normal::of_units(&mut radii[..whole], &mut angles[..whole]);
+    for (j, &i) in soft[..normals].iter().enumerate() {
+        out[i as usize] = if j % 2 == 0 { radii[j / 2] } else { angles[j / 2] };
+    }
+}
+
 /// Moves and scales depths until the least is center − half and the greatest is center + half, to the bit. Depths that all tie go to the centre.
 fn stretch(depth: &mut [f64], center: f64, half: f64) {
-    let (lo, hi) = depth.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
-    for x in depth {
+    #[inline(always)]
+    fn ends<S: Simd>(simd: S, x: &[f64]) -> (f64, f64) {
+        let (whole, rest) = x.as_chunks::<DOUBLES>();
+        let start = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, f64::NEG_INFINITY));
+        let (lo, hi) = whole.iter().map(|x| f64x8::from_slice(simd, x)).fold(start, |(lo, hi), x| (lo.min(x), hi.max(x)));
+        let ends = (lo.reduce_min(), hi.reduce_max());
+        rest.iter().fold(ends, |(lo, hi), &x| (lo.min(x), hi.max(x)))
+    }
+    let (lo, hi) = dispatch!(Level::new(), simd => ends(simd, depth));
+    if lo < hi {
         // Divided, not multiplied by a reciprocal: the farthest must give 1.
-        let place = if lo < hi { (*x - lo) / (hi - lo) } else { 0.5 };
-        *x = center + half * (2.0 * place - 1.0);
+        each!(depth, simd, x => {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            let place = (x - splat(lo)) / splat(hi - lo);
+            splat(center) + splat(half) * (splat(2.0) * place - splat(1.0))
+        });
+    } else {
+        depth.fill(center);
     }
 }
 
 impl Alpha {
     fn new(law: AlphaLaw) -> Self {
         match law {
-            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(uniform(min, max), reading),
+            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(Even::new(Range { min, max }), reading),
             AlphaLaw::LogUniform { min, max, reading } => Self::LogUniform(LogUniform::new(Range { min, max }), reading),
             AlphaLaw::Subrange { min, max } => Self::Subrange(Range { min, max }),
             AlphaLaw::NearOpaque { share, low } => Self::NearOpaque { share, low: LogUniform::new(low) },
@@ -327,26 +491,43 @@ impl Alpha {
     }
 
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch, out: &mut Vec<f32>) {
+        let units = &mut scratch.units;
         match self {
-            Self::Uniform(law, reading) => draw_alpha(rng, n, |rng| law.sample(rng), *reading, scratch, out),
-            Self::LogUniform(law, reading) => draw_alpha(rng, n, |rng| law.draw(rng), *reading, scratch, out),
+            Self::Uniform(law, AlphaReading::PerFragment) => {
+                fill(rng, n, units);
+                out.extend(units.iter().map(|&u| opacity(law.at(u))));
+            }
+            Self::LogUniform(law, AlphaReading::PerFragment) => {
+                fill(rng, n, units);
+                law.of_units(units);
+                out.extend(units.iter().map(|&alpha| opacity(alpha)));
+            }
+            Self::Uniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
+            Self::LogUniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
             Self::Subrange(range) => {
-                let (a, b) = (between(rng, *range), between(rng, *range));
-                let range = Range { min: a.min(b), max: a.max(b) };
-                out.extend((0..n).map(|_| between(rng, range) as f32));
+                let (a, b) = (Between(*range).draw(rng), Between(*range).draw(rng));
+                let law = Between(Range { min: a.min(b), max: a.max(b) });
+                fill(rng, n, units);
+                out.extend(units.iter().map(|&u| law.at(u) as f32));
             }
             Self::NearOpaque { share, low } => {
-                let (share, low) = (between(rng, *share), low.draw(rng));
-                out.extend((0..n).map(|_| {
-                    let range = if unit(rng) < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
-                    between(rng, range) as f32
+                let (share, low) = (Between(*share).draw(rng), low.draw(rng));
+                fill(rng, 2 * n, units);
+                out.extend(units.as_chunks().0.iter().map(|&[u, v]| {
+                    let range = if u < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
+                    Between(range).at(v) as f32
                 }));
             }
         }
     }
 }
 
-fn draw_alpha(
+fn opacity(alpha: f64) -> f32 {
+    (alpha as f32).clamp(0.0, 1.0)
+}
+
+/// Opacities that several fragments share.
+fn draw_shared(
     rng: &mut Stream,
     n: usize,
     law: impl Fn(&mut Stream) -> f64,
@@ -354,30 +535,25 @@ fn draw_alpha(
     Scratch { object, object_alpha, .. }: &mut Scratch,
     out: &mut Vec<f32>,
 ) {
-    let draw = |rng: &mut Stream| (law(rng) as f32).clamp(0.0, 1.0);
-    match reading {
-        AlphaReading::PerFragment => out.extend((0..n).map(|_| draw(rng))),
-        AlphaReading::PerPixel => {
-            let alpha = draw(rng);
-            out.extend(std::iter::repeat_n(alpha, n));
-        }
-        AlphaReading::PerObject => {
-            let mut materials = [0.0; MOST_MATERIALS];
-            let materials = &mut materials[..1 + below(rng, MOST_MATERIALS)];
-            materials.fill_with(|| draw(rng));
-            object_alpha.clear();
-            out.extend(object.iter().map(|&o| {
-                let o = o as usize;
-                if object_alpha.len() <= o {
-                    object_alpha.resize(o + 1, f32::NAN);
-                }
-                if object_alpha[o].is_nan() {
-                    object_alpha[o] = materials[below(rng, materials.len())];
-                }
-                object_alpha[o]
-            }));
-        }
+    if reading == AlphaReading::PerPixel {
+        let alpha = opacity(law(rng));
+        out.extend(std::iter::repeat_n(alpha, n));
+        return;
     }
+    let mut materials = [0.0; MOST_MATERIALS];
+    let materials = &mut materials[..1 + below(rng.next_u32(), MOST_MATERIALS)];
+    materials.fill_with(|| opacity(law(rng)));
+    object_alpha.clear();
+    out.extend(object.iter().map(|&o| {
+        let o = o as usize;
+        if object_alpha.len() <= o {
+            object_alpha.resize(o + 1, f32::NAN);
+        }
+        if object_alpha[o].is_nan() {
+            object_alpha[o] = materials[below(rng.next_u32(), materials.len())];
+        }
+        object_alpha[o]
+    }));
 }
 
 #[cfg(test)]
@@ -441,12 +617,12 @@ mod tests {
 
     #[test]
     fn the_basic_laws() {
-        let u = draws(unit);
+        let u = draws(Stream::unit);
         assert!(u.iter().all(|u| (0.0..1.0).contains(u)));
         assert!(has_mean(&u, |u| u, 0.5) && has_mean(&u, |u| u * u, 1.0 / 3.0));
         // Control: the tolerance is narrower than a hundredth.
         assert!(!has_mean(&u, |u| u, 0.51));
-        let k = draws(|rng| below(rng, 5) as f64);
+        let k = draws(|rng| below(rng.next_u32(), 5) as f64);
         assert!((0..5).all(|i| has_mean(&k, |k| f64::from(u8::from(k == f64::from(i))), 0.2)));
         let log = draws(|rng| LogUniform::new(range(1e-3, 10.0)).draw(rng));
         assert!(log.iter().all(|x| (1e-3..=10.0).contains(x)));
@@ -540,9 +716,9 @@ mod tests {
     fn stretched_extremes_are_exactly_at_the_ends() {
         let mut rng = rng();
         for _ in 0..1000 {
-            let mut x: Vec<f64> = (0..2 + below(&mut rng, 30)).map(|_| 3.0 * unit(&mut rng) - 1.0).collect();
+            let mut x: Vec<f64> = (0..2 + below(rng.next_u32(), 30)).map(|_| 3.0 * rng.unit() - 1.0).collect();
             let half = LogUniform::new(range(1e-4, 1.0)).draw(&mut rng);
-            let center = (2.0 * unit(&mut rng) - 1.0) * (1.0 - half);
+            let center = (2.0 * rng.unit() - 1.0) * (1.0 - half);
             let order = |x: &[f64]| {
                 let mut order: Vec<usize> = (0..x.len()).collect();
                 order.sort_by(|&i, &j| x[i].total_cmp(&x[j]));

@@ -6,7 +6,7 @@ mod draw;
 use crate::numeric::rng::{Stream, stream};
 use crate::pixel::{FragmentList, Pixel};
 pub use config::{SynthConfig, SynthError};
-use draw::{Camera, Law, Scratch, unit};
+use draw::{Camera, Law, Scratch};
 use rayon::prelude::*;
 
 /// Pixels that one task draws: enough to pay for the task, few enough that their fragments stay in the cache.
@@ -135,7 +135,7 @@ impl Synth {
         match self.laws.as_slice() {
             [only] => only,
             laws => {
-                let u = unit(rng);
+                let u = rng.unit();
                 &laws[self.shares.iter().position(|&share| u < share).expect("u < 1, the last share")]
             }
         }
