@@ -63,7 +63,14 @@ impl Stream {
         self.words[self.at..].first_chunk().expect("as many are left")
     }
 
-    /// Uses up words, no more than [`Self::peek`] has shown.
+    /// All words at hand that follow, eight at least, which are not used up.
+    #[inline]
+    pub fn words(&mut self) -> &[u32] {
+        self.peek();
+        &self.words[self.at..]
+    }
+
+    /// Uses up words, no more than [`Self::peek`] or [`Self::words`] has shown.
     #[inline(always)]
     pub fn skip(&mut self, words: usize) {
         self.at += words;
@@ -240,6 +247,7 @@ mod tests {
                 assert!(u == expected && (0.0..1.0).contains(&u));
             }
             let shown = *many.peek();
+            assert!(many.words().starts_with(&shown));
             assert_eq!(many.next_u32(), one.next_u32());
             many.skip(6);
             assert_eq!(shown[1..7], std::array::from_fn::<u32, 6, _>(|_| one.next_u32()));

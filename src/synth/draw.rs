@@ -10,6 +10,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f64x8};
 use rand::Rng;
 use rand_distr::{Distribution, Uniform};
+use std::f64::consts::TAU;
 
 /// Most materials that the objects of a pixel are made of.
 const MOST_MATERIALS: usize = 4;
@@ -116,45 +117,98 @@ impl LogUniform {
     }
 }
 
-/// Standard normal numbers, made two at a time.
+/// The two standard normal numbers of each pair of units, in the places of those.
+///
+/// # Source
+/// Box and Muller, *A note on the generation of random normal deviates*, 1958.
+fn normals(radii: &mut [f64], angles: &mut [f64]) {
+    #[inline(always)]
+    fn all<S: Simd>(simd: S, radii: &mut [f64], angles: &mut [f64]) {
+        let splat = |x: f64| f64x8::splat(simd, x);
+        for (u, v) in radii.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(angles.as_chunks_mut::<DOUBLES>().0) {
+            // 1 − u is never 0.
+            let r = (splat(-2.0) * doubles::ln(simd, splat(1.0) - f64x8::from_slice(simd, u))).sqrt();
+            let (sin, cos) = doubles::sincos(simd, splat(TAU) * f64x8::from_slice(simd, v));
+            (r * cos).store_slice(u);
+            (r * sin).store_slice(v);
+        }
+    }
+    assert!(radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES), "whole vectors");
+    dispatch!(Level::new(), simd => all(simd, radii, angles));
+}
+
+/// Units to come, each with its logarithm and with the sine and cosine of its share of a turn: which of them will serve for what is not known beforehand, as draws
+/// that are rejected shift all that follow.
 #[derive(Default)]
-struct Normal {
+struct Ahead {
+    units: Vec<f64>,
+    /// ln(1 − u)
+    ln: Vec<f64>,
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+    /// The next of them.
+    at: usize,
+    /// The second normal number of a pair.
     spare: Option<f64>,
 }
 
-impl Normal {
-    /// # Source
-    /// Box and Muller, *A note on the generation of random normal deviates*, 1958.
-    fn draw(&mut self, rng: &mut Stream) -> f64 {
+impl Ahead {
+    /// Units that are at hand after [`Self::provide`].
+    const LEAST: usize = 4;
+
+    /// Makes four units at least, and about as many as are wanted.
+    #[inline]
+    fn provide(&mut self, rng: &mut Stream, wanted: usize) {
+        if self.units.len() - self.at < Self::LEAST {
+            self.look(rng, wanted);
+        }
+    }
+
+    #[inline(never)]
+    fn look(&mut self, rng: &mut Stream, wanted: usize) {
+        #[inline(always)]
+        fn all<S: Simd>(simd: S, Ahead { units, ln, sin, cos, .. }: &mut Ahead) {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            for out in [&mut *ln, sin, cos] {
+                out.resize(units.len(), 0.0);
+            }
+            let outputs = ln.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(sin.as_chunks_mut::<DOUBLES>().0).zip(cos.as_chunks_mut::<DOUBLES>().0);
+            for (u, ((ln, sin), cos)) in units.as_chunks::<DOUBLES>().0.iter().zip(outputs) {
+                let u = f64x8::from_slice(simd, u);
+                doubles::ln(simd, splat(1.0) - u).store_slice(ln);
+                let (s, c) = doubles::sincos(simd, splat(TAU) * u);
+                s.store_slice(sin);
+                c.store_slice(cos);
+            }
+        }
+        self.settle(rng);
+        let words = rng.words().as_chunks().0;
+        let words = &words[..words.len().min(wanted.max(Self::LEAST).next_multiple_of(DOUBLES))];
+        self.units.extend(words.iter().map(|&pair| unit(pair)));
+        let count = self.units.len();
+        self.units.resize(count.next_multiple_of(DOUBLES), FILLER);
+        dispatch!(Level::new(), simd => all(simd, self));
+        self.units.truncate(count);
+    }
+
+    /// Uses up the units that were taken, and forgets the others.
+    fn settle(&mut self, rng: &mut Stream) {
+        rng.skip(2 * self.at);
+        self.at = 0;
+        self.units.clear();
+    }
+
+    /// A standard normal number; takes two units, or none.
+    #[inline]
+    fn normal(&mut self) -> f64 {
         if let Some(x) = self.spare.take() {
             return x;
         }
-        // 1 − u is never 0.
-        let r = (-2.0 * libm::log(1.0 - rng.unit())).sqrt();
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * rng.unit());
+        let r = (-2.0 * self.ln[self.at]).sqrt();
+        let (sin, cos) = (self.sin[self.at + 1], self.cos[self.at + 1]);
+        self.at += 2;
         self.spare = Some(r * sin);
         r * cos
-    }
-
-    /// The two numbers of each pair of units, in the places of those.
-    fn of_units(radii: &mut [f64], angles: &mut [f64]) {
-        #[inline(always)]
-        fn both<S: Simd>(simd: S, radii: &mut [f64; DOUBLES], angles: &mut [f64; DOUBLES]) {
-            let splat = |x: f64| f64x8::splat(simd, x);
-            let (u, v) = (f64x8::from_slice(simd, radii), f64x8::from_slice(simd, angles));
-            let r = (splat(-2.0) * doubles::ln(simd, splat(1.0) - u)).sqrt();
-            let (sin, cos) = doubles::sincos(simd, splat(std::f64::consts::TAU) * v);
-            (r * cos).store_slice(radii);
-            (r * sin).store_slice(angles);
-        }
-        #[inline(always)]
-        fn all<S: Simd>(simd: S, radii: &mut [f64], angles: &mut [f64]) {
-            for (radii, angles) in radii.as_chunks_mut().0.iter_mut().zip(angles.as_chunks_mut().0) {
-                both(simd, radii, angles);
-            }
-        }
-        assert!(radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES), "whole vectors");
-        dispatch!(Level::new(), simd => all(simd, radii, angles));
     }
 }
 
@@ -172,25 +226,37 @@ impl Gamma {
         Self { d, c: 1.0 / (9.0 * d).sqrt(), boost: (a < 1.0).then(|| 1.0 / a) }
     }
 
+    /// A number and the logarithm of its factor, which is 0 where there is none; `wanted` units will be taken in about all that follows.
+    ///
     /// # Source
     /// Marsaglia and Tsang, *A simple method for generating gamma variables*, 2000; shapes below 1 by their Sec. 6: γ(a) = γ(a + 1) u^(1/a).
-    fn draw(&self, rng: &mut Stream, normal: &mut Normal) -> f64 {
+    #[inline]
+    fn draw(&self, rng: &mut Stream, ahead: &mut Ahead, wanted: usize) -> (f64, f64) {
         let gamma = loop {
-            let x = normal.draw(rng);
+            ahead.provide(rng, wanted);
+            let x = ahead.normal();
             let v = 1.0 + self.c * x;
             if v <= 0.0 {
                 continue;
             }
             let v = v * v * v;
-            let u = 1.0 - rng.unit();
+            let (u, ln) = (1.0 - ahead.units[ahead.at], ahead.ln[ahead.at]);
+            ahead.at += 1;
             // The first test is cheap and settles most draws.
-            if u < 1.0 - 0.0331 * (x * x) * (x * x) || libm::log(u) < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
+            if u < 1.0 - 0.0331 * (x * x) * (x * x) || ln < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
                 break self.d * v;
             }
         };
-        match self.boost {
-            Some(power) => gamma * libm::exp(power * libm::log(1.0 - rng.unit())),
-            None => gamma,
+        let Some(power) = self.boost else { return (gamma, 0.0) };
+        ahead.at += 1;
+        (gamma, power * ahead.ln[ahead.at - 1])
+    }
+
+    /// Applies the factors of which the logarithms are given; these become the factors on the way.
+    fn boost(&self, gammas: &mut [f64], logarithms: &mut [f64]) {
+        if self.boost.is_some() {
+            each!(logarithms, simd, x => doubles::exp(simd, x));
+            gammas.iter_mut().zip(logarithms).for_each(|(gamma, factor)| *gamma *= *factor);
         }
     }
 }
@@ -206,6 +272,7 @@ pub(super) struct Scratch {
     radii: Vec<f64>,
     angles: Vec<f64>,
     soft: Vec<u32>,
+    ahead: Ahead,
     /// Object of each fragment: whole numbers from 0.
     object: Vec<u32>,
     /// Centre and standard deviation of each cluster.
@@ -378,7 +445,7 @@ fn fill(rng: &mut Stream, n: usize, units: &mut Vec<f64>) {
 impl Shape {
     /// Depths and objects of n fragments.
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch) {
-        let Scratch { depth, object, clusters, radii, angles, soft, .. } = scratch;
+        let Scratch { depth, units, object, clusters, radii, angles, soft, ahead, .. } = scratch;
         object.clear();
         match self {
             Self::Uniform => fill(rng, n, depth),
@@ -403,13 +470,22 @@ impl Shape {
                 return;
             }
             Self::Beta { a, b } => {
-                let (a, b) = (Gamma::new(a.draw(rng)), Gamma::new(b.draw(rng)));
-                let mut normal = Normal::default();
-                depth.clear();
-                depth.extend((0..n).map(|_| {
-                    let (x, y) = (a.draw(rng, &mut normal), b.draw(rng, &mut normal));
-                    x / (x + y)
-                }));
+                let laws = [a, b].map(|shape| Gamma::new(shape.draw(rng)));
+                let units_of_a_fragment = 4 + laws.iter().filter(|law| law.boost.is_some()).count();
+                let [x, y] = [depth, units];
+                for of_law in [&mut *x, y, radii, angles] {
+                    of_law.resize(n, 0.0);
+                }
+                for i in 0..n {
+                    let wanted = units_of_a_fragment * (n - i);
+                    (x[i], radii[i]) = laws[0].draw(rng, ahead, wanted);
+                    (y[i], angles[i]) = laws[1].draw(rng, ahead, wanted);
+                }
+                ahead.settle(rng);
+                ahead.spare = None;
+                laws[0].boost(x, radii);
+                laws[1].boost(y, angles);
+                x.iter_mut().zip(y).for_each(|(x, y)| *x /= *x + *y);
             }
         }
         object.extend(0..n as u32);
@@ -436,23 +512,23 @@ fn scatter(
         // Half of the fragments take a pair each at the most, and one place more is written ahead.
         units.resize((n / 2 + 2).next_multiple_of(DOUBLES), FILLER);
     }
-    let (mut pairs, mut normals, mut spare) = (0, 0, 0);
+    let (mut pairs, mut count, mut spare) = (0, 0, 0);
     for i in 0..n {
         let &[which, _, law, u0, u1, v0, v1, _] = rng.peek();
         object[i] = below(which, clusters) as u32;
         let (u, v) = (unit([u0, u1]), unit([v0, v1]));
         // √3 makes the uniform law's deviation 1.
         out[i] = (2.0 * u - 1.0) * 3f64.sqrt();
-        (radii[pairs], angles[pairs], soft[normals]) = (u, v, i as u32);
+        (radii[pairs], angles[pairs], soft[count]) = (u, v, i as u32);
         // Units below ½ have no highest bit.
         let is_soft = (law >> 31 ^ 1) as usize;
         let takes_pair = is_soft & (spare ^ 1);
-        (pairs, normals, spare) = (pairs + takes_pair, normals + is_soft, spare ^ is_soft);
+        (pairs, count, spare) = (pairs + takes_pair, count + is_soft, spare ^ is_soft);
         rng.skip(3 + 2 * (is_soft ^ 1) + 4 * takes_pair);
     }
     let whole = pairs.next_multiple_of(DOUBLES);
-    Normal::of_units(&mut radii[..whole], &mut angles[..whole]);
-    for (j, &i) in soft[..normals].iter().enumerate() {
+    normals(&mut radii[..whole], &mut angles[..whole]);
+    for (j, &i) in soft[..count].iter().enumerate() {
         out[i as usize] = if j % 2 == 0 { radii[j / 2] } else { angles[j / 2] };
     }
 }
@@ -627,8 +703,11 @@ mod tests {
         let log = draws(|rng| LogUniform::new(range(1e-3, 10.0)).draw(rng));
         assert!(log.iter().all(|x| (1e-3..=10.0).contains(x)));
         assert!(has_mean(&log, f64::log10, -1.0) && has_mean(&log, |x| x, (10.0 - 1e-3) / 1e4f64.ln()));
-        let mut normal = Normal::default();
-        let x = draws(|rng| normal.draw(rng));
+        let mut ahead = Ahead::default();
+        let x = draws(|rng| {
+            ahead.provide(rng, 100);
+            ahead.normal()
+        });
         let inside = |x: f64| f64::from(u8::from(x.abs() < 1.0));
         assert!(has_mean(&x, |x| x, 0.0) && has_mean(&x, |x| x * x, 1.0) && has_mean(&x, |x| x.powi(4), 3.0) && has_mean(&x, inside, 0.682_689_5));
         // Those of one pair are independent.
@@ -640,8 +719,12 @@ mod tests {
     #[test]
     fn the_gamma_law() {
         for (a, digamma) in [(0.3, -3.502_524_222), (1.0, -0.577_215_665), (5.0, 1.506_117_668)] {
-            let (gamma, mut normal) = (Gamma::new(a), Normal::default());
-            let x = draws(|rng| gamma.draw(rng, &mut normal));
+            let (gamma, mut ahead) = (Gamma::new(a), Ahead::default());
+            let (mut x, mut logarithms): (Vec<f64>, Vec<f64>) = {
+                let mut rng = rng();
+                (0..DRAWS).map(|_| gamma.draw(&mut rng, &mut ahead, 100)).unzip()
+            };
+            gamma.boost(&mut x, &mut logarithms);
             assert!(x.iter().all(|&x| x > 0.0));
             assert!(has_mean(&x, |x| x, a) && has_mean(&x, |x| (x - a).powi(2), a) && has_mean(&x, f64::ln, digamma), "a = {a}");
         }
@@ -696,6 +779,89 @@ mod tests {
         let wide = shapes(law(1, 6, range(1e-3, 0.3)), 2, 50_000);
         // A fragment's mean is that of the centres, wherever its cluster lies.
         assert!(has_mean(&wide.iter().map(|(x, _)| x[0]).collect::<Vec<_>>(), |x| x, 0.5));
+    }
+
+    /// Clusters and beta laws drawn number by number with scalar functions, in the order in which words are taken: the same depths to the bit as many at once, and
+    /// as many words taken. Control: the pixel before.
+    #[test]
+    fn many_at_once_are_those_drawn_one_by_one() {
+        struct Plain {
+            spare: Option<f64>,
+        }
+        impl Plain {
+            fn normal(&mut self, rng: &mut Stream) -> f64 {
+                if let Some(x) = self.spare.take() {
+                    return x;
+                }
+                let r = (-2.0 * libm::log(1.0 - rng.unit())).sqrt();
+                let (sin, cos) = libm::sincos(TAU * rng.unit());
+                self.spare = Some(r * sin);
+                r * cos
+            }
+
+            fn gamma(&mut self, rng: &mut Stream, a: f64) -> f64 {
+                let law = Gamma::new(a);
+                let gamma = loop {
+                    let x = self.normal(rng);
+                    let v = 1.0 + law.c * x;
+                    let v = v * v * v;
+                    if v > 0.0 && libm::log(1.0 - rng.unit()) < 0.5 * x * x + law.d * (1.0 - v + libm::log(v)) {
+                        break law.d * v;
+                    }
+                };
+                if a < 1.0 { gamma * libm::exp(1.0 / a * libm::log(1.0 - rng.unit())) } else { gamma }
+            }
+        }
+        let mut last = Vec::new();
+        for pixel in 0..3000 {
+            let mut many = stream(9, 0x7e57, pixel);
+            // Words before the pixel, so that it starts anywhere.
+            for _ in 0..pixel % 200 {
+                many.next_u32();
+            }
+            let mut one = many.clone();
+            let (n, mut scratch) = (1 + (pixel as usize * 7) % 150, Scratch::default());
+            let mut plain = Plain { spare: None };
+            let expected: Vec<f64> = if pixel % 2 == 0 {
+                let (a, b) = (0.1 + 0.003 * (pixel % 1000) as f64, 0.1 + 0.01 * (pixel % 300) as f64);
+                let shape = Shape::Beta { a: LogUniform::new(range(a, a)), b: LogUniform::new(range(b, b)) };
+                shape.draw(&mut many, n, &mut scratch);
+                (one.unit(), one.unit());
+                (0..n)
+                    .map(|_| {
+                        let (x, y) = (plain.gamma(&mut one, a), plain.gamma(&mut one, b));
+                        x / (x + y)
+                    })
+                    .collect()
+            } else {
+                let Scratch { depth, object, radii, angles, soft, .. } = &mut scratch;
+                scatter(&mut many, n, 5, object, depth, [radii, angles], soft);
+                (0..n)
+                    .map(|i| {
+                        assert_eq!(object[i] as usize, below(one.next_u32(), 5));
+                        if one.unit() < 0.5 { plain.normal(&mut one) } else { (2.0 * one.unit() - 1.0) * 3f64.sqrt() }
+                    })
+                    .collect()
+            };
+            assert_eq!(scratch.depth, expected, "pixel {pixel}");
+            assert_eq!(many.next_u64(), one.next_u64(), "pixel {pixel}");
+            assert_ne!(expected, last);
+            last = expected;
+        }
+    }
+
+    /// The uniform law is that of `rand`, to the bit.
+    #[test]
+    fn the_uniform_law_is_rands() {
+        for (min, max) in [(0.0, 1.0), (0.3, 1.0), (0.1, 0.5), (0.02, 0.95), (0.25, 0.25), (0.0, 0.0), (1.0 / 3.0, 0.7)] {
+            let (ours, theirs) = (Even::new(range(min, max)), Uniform::new_inclusive(min, max).unwrap());
+            let (mut a, mut b) = (rng(), rng());
+            for _ in 0..1000 {
+                let x = ours.draw(&mut a);
+                assert!(x == theirs.sample(&mut b) && (min..=max).contains(&x));
+            }
+            assert_eq!(ours.at(0.0), min);
+        }
     }
 
     #[test]
