@@ -1,7 +1,7 @@
 //! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light passes in front of it.
 //!
 //! Data flows down this list of modules, and a module imports only from those above it:
-//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`evaluate`], [`mod@bench`].
+//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`evaluate`], [`mod@bench`], [`profile`].
 
 #![warn(missing_docs)]
 
@@ -17,6 +17,7 @@ pub mod moments;
 pub mod numeric;
 pub mod oit;
 pub mod pixel;
+pub mod profile;
 pub mod scene;
 pub mod synth;
 pub mod train;

@@ -9,6 +9,7 @@ mod generate;
 mod import;
 mod interrupt;
 mod predict;
+mod profile;
 mod run;
 mod scene;
 mod train;
@@ -59,6 +60,8 @@ enum Command {
     Scene(scene::Scene),
     /// Measure how fast training, generation and inference are.
     Bench(bench::Bench),
+    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
+    Profile(profile::Profile),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -109,6 +112,7 @@ pub fn main() -> ExitCode {
         Command::Evaluate(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
+        Command::Profile(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

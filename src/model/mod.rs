@@ -5,7 +5,7 @@ pub mod kernel;
 pub mod mlp;
 
 pub use file::ModelError;
-pub use mlp::{Dense, Mlp, ShapeError};
+pub use mlp::{Dense, Mlp, ShapeError, Tiled};
 
 use serde::{Deserialize, Serialize};
 
