@@ -43,6 +43,8 @@ pub enum Class {
     Three,
     /// One of four, where the closed form is well conditioned.
     Four,
+    /// Known without the network, which rule said so not being told apart.
+    Known,
     /// Of a faint pixel: e^(−b_0'/2).
     Faint,
     /// Hidden: e^−b_0'.
@@ -53,7 +55,8 @@ pub enum Class {
 
 impl Class {
     /// Every class.
-    pub const ALL: [Self; 8] = [Self::Nearest, Self::Alone, Self::Farthest, Self::Three, Self::Four, Self::Faint, Self::Hidden, Self::Network];
+    pub const ALL: [Self; 9] =
+        [Self::Nearest, Self::Alone, Self::Farthest, Self::Three, Self::Four, Self::Known, Self::Faint, Self::Hidden, Self::Network];
 
     /// Its name in tables and files.
     pub fn name(self) -> &'static str {
@@ -63,6 +66,7 @@ impl Class {
             Self::Farthest => "farthest",
             Self::Three => "three",
             Self::Four => "four",
+            Self::Known => "known",
             Self::Faint => "faint",
             Self::Hidden => "hidden",
             Self::Network => "network",

@@ -48,4 +48,7 @@ pub struct Provenance {
     /// Greatest absolute error of T over the same pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transmittance_worst_error: Option<f64>,
+    /// How it was made of another network, from what, and where that holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derived: Option<serde_json::Value>,
 }

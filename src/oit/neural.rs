@@ -3,7 +3,7 @@
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
-use crate::features::{Extractor, FeatureSet};
+use crate::features::{Extractor, FeatureSet, Look, Storage};
 use crate::model::kernel::Row;
 use crate::model::{Mlp, Tiled, file};
 use crate::numeric::lanes::LANES;
@@ -40,6 +40,7 @@ impl Skip {
 pub struct Neural {
     mlp: Mlp,
     switches: Switches,
+    storage: Storage,
 }
 
 /// A network's answers, and what was done for them.
@@ -66,7 +67,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 impl Neural {
     /// The method that asks this network where its answer is used.
     pub fn new(mlp: Mlp) -> Self {
-        Self { mlp, switches: Skip::default().switches() }
+        Self { mlp, switches: Skip::default().switches(), storage: Storage::default() }
     }
 
     /// The same, asking about other fragments.
@@ -77,6 +78,11 @@ impl Neural {
     /// The same, each way of skipping switched on or off.
     pub fn with_switches(self, switches: Switches) -> Self {
         Self { switches, ..self }
+    }
+
+    /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
+    pub fn with_storage(self, storage: Storage) -> Self {
+        Self { storage, ..self }
     }
 
     /// The network.
@@ -108,6 +114,7 @@ impl Neural {
         // Pixels are taken in runs of about this many fragments, so that what is made of them stays a few megabytes.
         const RUN: u64 = 1 << 18;
         let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range).map_err(|e| self.error(e))?;
+        let extractor = extractor.with_storage(self.storage);
         let passes = extractor.passes();
         let tiled = Tiled::new(&self.mlp);
         let offsets = list.offsets();
@@ -128,7 +135,7 @@ impl Neural {
         Ok(answered)
     }
 
-    /// Features that know nothing without the network: it is asked about all fragments, but for pixels that hardly show.
+    /// Features that are made pixel by pixel: the network is asked about all fragments that they do not know, but for pixels that hardly show.
     fn ask_all(
         &self,
         list: &FragmentList,
@@ -138,29 +145,35 @@ impl Neural {
         classes: &mut [Class],
     ) -> Result<Tally, crate::pixel::DepthError> {
         let start = Instant::now();
-        let mut features = extractor.list(list, pixels.clone())?.features;
+        let Look { known, mut features } = extractor.list(list, pixels.clone())?;
         let seconds_pass_1 = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let offsets = list.offsets();
         let width = extractor.set().width();
-        if self.switches.faint {
-            for p in pixels.clone() {
-                // Both mean colours lie in [0, 1], whatever the weights: the image changes by at most 1 − e^−b_0.
-                let b0 = abuffer::total_absorbance(list.pixel(p));
-                if b0 <= LEAST_OPACITY {
-                    let own = (offsets[p] - offsets[pixels.start]) as usize..(offsets[p + 1] - offsets[pixels.start]) as usize;
-                    out[own.clone()].fill(libm::exp(-0.5 * b0) as f32);
-                    classes[own].fill(Class::Faint);
-                }
+        for p in pixels.clone() {
+            let own = (offsets[p] - offsets[pixels.start]) as usize..(offsets[p + 1] - offsets[pixels.start]) as usize;
+            // Both mean colours lie in [0, 1], whatever the weights: the image changes by at most 1 − e^−b_0.
+            let b0 = if self.switches.faint { abuffer::total_absorbance(list.pixel(p)) } else { f64::INFINITY };
+            for i in own {
+                (out[i], classes[i]) = match known[i] {
+                    t if !t.is_nan() => (t, Class::Known),
+                    _ if b0 <= LEAST_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
+                    _ => (f32::NAN, Class::Network),
+                };
             }
-            let mut kept = 0;
-            for (i, _) in classes.iter().enumerate().filter(|(_, c)| **c == Class::Network) {
-                features.copy_within(i * width..(i + 1) * width, kept * width);
-                kept += 1;
-            }
-            features.truncate(kept * width);
         }
-        let mut tally = Tally { rows: (features.len() / width) as u64, seconds_pass_1, ..Tally::default() };
+        let (mut kept, mut row) = (0, 0);
+        for (i, class) in classes.iter().enumerate() {
+            if known[i].is_nan() {
+                if *class == Class::Network {
+                    features.copy_within(row * width..(row + 1) * width, kept * width);
+                    kept += 1;
+                }
+                row += 1;
+            }
+        }
+        features.truncate(kept * width);
+        let mut tally = Tally { rows: kept as u64, seconds_pass_1, ..Tally::default() };
         let mut answers = self.mlp.predict(&features).into_iter();
         for (out, &class) in out.iter_mut().zip(&*classes) {
             if class == Class::Network {
