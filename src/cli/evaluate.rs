@@ -1,6 +1,7 @@
 //! `nmt evaluate`
 
 use super::Verdict;
+use super::predict::SkipName;
 use super::scene::{SceneOptions, load};
 use super::ui::{Ui, report, table};
 use crate::evaluate::gpu::{self, GpuResult};
@@ -11,7 +12,8 @@ use crate::export::Format;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
-use crate::oit::{Context, Method, all_names, neural::Neural, parse};
+use crate::oit::neural::{Neural, Skip};
+use crate::oit::{Context, Method, all_names, parse};
 use crate::pixel::CameraPlanes;
 use anyhow::bail;
 use clap::Args;
@@ -30,6 +32,9 @@ pub struct Evaluate {
     /// Networks to evaluate beside them.
     #[arg(long, value_name = "MODEL.json", num_args = 1..)]
     model: Vec<PathBuf>,
+    /// Which fragments to run those networks for.
+    #[arg(long, value_enum, default_value = "exact")]
+    skip: SkipName,
     /// Folder for images, contact sheets and results.json.
     #[arg(long)]
     out: PathBuf,
@@ -150,6 +155,12 @@ impl Evaluate {
             }
             results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, gpu.as_ref())));
         }
+        let skip = Skip::from(self.skip);
+        for result in results.iter_mut().filter_map(Value::as_object_mut) {
+            if result.get("method").and_then(Value::as_str).is_some_and(|name| name.starts_with("neural:")) {
+                result.insert("skip".to_owned(), json!(skip));
+            }
+        }
         let report = report("evaluate", results);
         let json = serde_json::to_string_pretty(&report)? + "\n";
         write_atomically(&self.out.join(RESULTS), replace, |w| w.write_all(json.as_bytes()))?;
@@ -183,7 +194,7 @@ impl Evaluate {
             }
         }
         for path in &self.model {
-            let method = Box::new(Neural::new(file::load(path)?));
+            let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
             methods.push(Asked { method, demanded: true, shader: self.gpu.then(|| shader(path)).transpose()? });
         }
         Ok(methods)

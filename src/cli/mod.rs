@@ -10,6 +10,7 @@ mod generate;
 mod import;
 mod interrupt;
 mod predict;
+mod profile;
 mod run;
 mod scene;
 mod stress;
@@ -63,6 +64,8 @@ enum Command {
     Bench(bench::Bench),
     /// Find out where methods break: numerical stability of each, case by case.
     Stress(stress::Stress),
+    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
+    Profile(profile::Profile),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -114,6 +117,7 @@ pub fn main() -> ExitCode {
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),
+        Command::Profile(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

@@ -2,7 +2,10 @@
 
 pub mod deep_weighted_blended;
 pub mod paper;
+pub mod passes;
 pub mod recentred;
+pub mod visible;
+mod wide;
 
 use crate::moments::storage::through_unorm16;
 use crate::numeric::lanes::{self, LANES, Lanes};

@@ -6,7 +6,7 @@ pub mod mlp;
 pub mod simplify;
 
 pub use file::ModelError;
-pub use mlp::{Dense, Mlp, ShapeError};
+pub use mlp::{Dense, Mlp, ShapeError, Tiled};
 
 use serde::{Deserialize, Serialize};
 
@@ -52,4 +52,7 @@ pub struct Provenance {
     /// What was taken out of the network that was trained.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pruned: Option<simplify::Pruned>,
+    /// How it was made of another network, from what, and where that holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derived: Option<serde_json::Value>,
 }
