@@ -8,7 +8,7 @@ use crate::evaluate::{MethodResult, Truth, sort_by_error};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::{Context, Method, all_names, neural::Neural, parse};
-use crate::pixel::CameraPlanes;
+use crate::pixel::{CameraPlanes, FragmentList};
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -87,7 +87,7 @@ impl Evaluate {
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
             for (index, (method, demanded)) in methods.iter().enumerate() {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
-                let judged = match truth.judge(&**method, context) {
+                let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
                     Err(why) => {
                         refused |= *demanded;
@@ -99,7 +99,8 @@ impl Evaluate {
                 let stem = (1..).map(|n| if n == 1 { file_stem(&method.name()) } else { format!("{}-{n}", file_stem(&method.name())) });
                 let stem = stem.into_iter().find(|s| !stems.contains(s)).expect("there are more numbers than methods");
                 write_method(&folder, &stem, replace, &judged)?;
-                stems.insert(stem);
+                stems.insert(stem.clone());
+                judged.result.picture = judged.picture.is_some().then_some(stem);
                 if let Some(sheet) = &mut sheet {
                     sheet.add(&judged)?;
                 }
@@ -114,7 +115,7 @@ impl Evaluate {
             if !ui.json() {
                 ui.print(&format!("{heading}{}{remarks}\n", rows(&found)))?;
             }
-            results.extend(found.iter().map(|r| with_scene(r, name)));
+            results.extend(found.iter().map(|r| with_scene(r, name, &list)));
         }
         let report = report("evaluate", results);
         let json = serde_json::to_string_pretty(&report)? + "\n";
@@ -161,10 +162,14 @@ fn scene_names(fragments: &[String]) -> Vec<String> {
     names
 }
 
-fn with_scene(result: &MethodResult, scene: &str) -> Value {
+/// A result with what it is of.
+fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList) -> Value {
     let mut value = serde_json::to_value(result).expect("results are plain data");
     if let Some(object) = value.as_object_mut() {
         object.insert("scene".to_owned(), scene.into());
+        object.insert("pixels".to_owned(), list.pixels().into());
+        object.insert("fragments".to_owned(), list.len().into());
+        object.insert("depth_complexity".to_owned(), list.depth_complexity().into());
     }
     value
 }

@@ -9,6 +9,7 @@ mod generate;
 mod import;
 mod interrupt;
 mod predict;
+mod report;
 mod run;
 mod scene;
 mod train;
@@ -59,6 +60,8 @@ enum Command {
     Scene(scene::Scene),
     /// Measure how fast training, generation and inference are.
     Bench(bench::Bench),
+    /// Make one self-contained HTML page of what the other commands measured.
+    Report(report::Report),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -109,6 +112,7 @@ pub fn main() -> ExitCode {
         Command::Evaluate(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
+        Command::Report(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

@@ -82,7 +82,10 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 "
             .to_owned(),
             FeatureSet::DeepWeightedBlended => {
-                return Err(GpuError::Source { label: label(), reason: "its answer is a blending weight, and has no place in these passes".to_owned() });
+                return Err(GpuError::Source {
+                    label: label(),
+                    reason: "its answer is a blending weight, and has no place in these passes".to_owned(),
+                });
             }
         };
         let source = format!("{export}{glue}");
@@ -121,10 +124,9 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
     pub fn depth_range(&self, list: &FragmentList, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<[f32; 2], GpuError> {
         match self.depth {
             MomentDepthKind::Window => {
-                let planes = planes.or(list.planes()).ok_or_else(|| GpuError::Source {
-                    label: self.name.clone(),
-                    reason: crate::pixel::DepthError::NoPlanes.to_string(),
-                })?;
+                let planes = planes
+                    .or(list.planes())
+                    .ok_or_else(|| GpuError::Source { label: self.name.clone(), reason: crate::pixel::DepthError::NoPlanes.to_string() })?;
                 Ok([planes.near(), planes.far()])
             }
             MomentDepthKind::Log | MomentDepthKind::None => {
