@@ -12,7 +12,7 @@ const LEFT: f64 = 66.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 52.0;
 /// Width of a letter at the size of labels, on average, and height of a line [CSS pixels].
-const LETTER: f64 = 6.3;
+const LETTER: f64 = 7.3;
 const LINE: f64 = 15.0;
 /// Letters of a label that are shown.
 const LETTERS: usize = 30;
@@ -105,10 +105,8 @@ struct Ruler {
     log: bool,
     from: f64,
     to: f64,
-    /// Values and their texts.
+    /// Values and their texts; the lowest says so where smaller values are drawn on it.
     ticks: Vec<(f64, String)>,
-    /// Whether something lies below `low` and is drawn there.
-    clipped: bool,
 }
 
 impl Ruler {
@@ -133,17 +131,20 @@ impl Ruler {
             Scale::Names(names) => {
                 let last = names.len().max(1) as f64 - 1.0;
                 let ticks = names.iter().enumerate().map(|(i, name)| (i as f64, name.clone())).collect();
-                Self { low: -0.35, high: last + 0.35, log: false, from, to, ticks, clipped: false }
+                Self { low: -0.35, high: last + 0.35, log: false, from, to, ticks }
             }
             Scale::Linear => {
                 // Differences of what is drawn must not overflow.
                 let [low, high] = [low, high].map(|v| v.clamp(-1e300, 1e300));
-                let step = linear_step((high - low).max(high.abs().max(low.abs()) * 1e-6).max(1e-300) / 5.0);
-                let (first, last) = ((low / step).floor(), (high / step).ceil());
-                let last = if last > first { last } else { first + 1.0 };
-                let count = ((last - first).min(20.0)) as usize;
-                let ticks = (0..=count).map(|i| (first + i as f64) * step).map(|v| (v, number(tidy(v, step)))).collect();
-                Self { low: first * step, high: last * step, log: false, from, to, ticks, clipped: false }
+                let size = high.abs().max(low.abs());
+                let step = linear_step((high - low).max(size * 1e-6).max(1e-300) / 6.0);
+                // Ends lie a little beyond what is drawn, and on 0 where that is near.
+                let room = (0.02 * (high - low)).max(0.5 * step * f64::from(u8::from(high - low < step)));
+                let start = if low >= 0.0 && low < 0.1 * high { 0.0 } else { low - room };
+                let (low, high) = (start, high + room);
+                let first = (low / step).ceil();
+                let ticks = (0..20).map(|i| (first + f64::from(i)) * step).take_while(|v| *v <= high).map(|v| (v, number(tidy(v, step)))).collect();
+                Self { low, high, log: false, from, to, ticks }
             }
             Scale::Log { decades } => {
                 if low > high {
@@ -156,9 +157,16 @@ impl Ruler {
                 clipped |= low.max(1e-300).log10() < floor;
                 let low = low.max(1e-290).log10().max(floor);
                 // A zero needs an edge of its own, below all else.
-                let (low, high) = (if clipped { low.floor() } else { (low - 0.04).max(floor) }, high.log10() + 0.04);
+                let high = high.log10();
+                let room = (0.03 * (high - low)).max(0.02);
+                let (low, high) = (if clipped { low.floor() } else { low - room }, high + room);
                 let (low, high) = if high - low < 0.3 { (low - 0.15, high + 0.15) } else { (low, high) };
-                Self { low, high, log: true, from, to, ticks: log_ticks(low, high), clipped }
+                let mut ticks = log_ticks(low, high);
+                if clipped {
+                    ticks.retain(|(v, _)| v.log10() > low + 0.02 * (high - low));
+                    ticks.insert(0, (10f64.powf(low), format!("≤1e{low:.0}")));
+                }
+                Self { low, high, log: true, from, to, ticks }
             }
         })
     }
@@ -319,9 +327,6 @@ impl Chart {
             "<text class=\"name\" transform=\"translate(14 {middle:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
             escape(&self.y.label)
         );
-        if y.clipped {
-            *out += &format!("<text class=\"tick\" x=\"{:.1}\" y=\"{:.1}\">lower edge: this or less, 0 too</text>\n", LEFT + 6.0, y_end - 6.0);
-        }
     }
 
     /// Names of lines at their right ends, moved apart where they would meet.
@@ -372,13 +377,13 @@ impl Chart {
             let places = [
                 (px + 9.0, py - h / 2.0),
                 (px - 9.0 - w, py - h / 2.0),
-                (px + 5.0, py - h - 5.0),
-                (px + 5.0, py + 5.0),
-                (px - 5.0 - w, py - h - 5.0),
-                (px - 5.0 - w, py + 5.0),
+                (px + 5.0, py - h - 7.0),
+                (px + 5.0, py + 7.0),
+                (px - 5.0 - w, py - h - 7.0),
+                (px - 5.0 - w, py + 7.0),
                 (px - w / 2.0, py - h - 8.0),
                 (px - w / 2.0, py + 8.0),
-                (px + 5.0, py - 2.0 * h - 2.0),
+                (px + 5.0, py - 2.0 * h - 9.0),
                 (px + 5.0, py + h + 4.0),
             ];
             let inside = |b: &Box| b.x >= LEFT && b.x + b.width <= WIDTH - 4.0 && b.y >= 0.0 && b.y + b.height <= HEIGHT - BOTTOM;
@@ -411,12 +416,20 @@ fn shape(color: usize, x: f64, y: f64, r: f64) -> String {
     }
 }
 
-/// A chart in a box that scrolls on narrow screens.
+/// A chart in a box that scrolls on narrow screens, where the labels of lines stand below it once more.
 pub fn figure(chart: &Chart, caption: &str) -> Option<String> {
     let svg = chart.svg()?;
     let label = escape(&chart.summary);
+    let lines = chart.series.iter().filter(|s| s.is_line() && !s.name.is_empty());
+    let legend: String = lines
+        .map(|s| {
+            let (color, name) = (s.color % COLORS, escape(&s.name));
+            format!("<li class=\"s{color}\"><svg width=\"14\" height=\"14\" aria-hidden=\"true\">{}</svg>{name}</li>", shape(color, 7.0, 7.0, 5.0))
+        })
+        .collect();
+    let legend = if legend.is_empty() { legend } else { format!("<ul class=\"legend\" aria-hidden=\"true\">{legend}</ul>") };
     Some(format!(
-        "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">{svg}</div>\
+        "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\">{svg}</div>{legend}\
          <figcaption>{}</figcaption></figure>\n",
         escape(caption)
     ))
@@ -483,10 +496,11 @@ mod tests {
         let ruler = of(&[1e-5, 1e-3, 1e-1]);
         let texts: Vec<&str> = ruler.ticks.iter().map(|t| t.1.as_str()).collect();
         assert_eq!(texts, ["1e-5", "1e-4", "1e-3", "0.01", "0.1"]);
-        assert!((ruler.at(1e-3) - 50.0).abs() < 1e-9 && !ruler.clipped);
-        // Zeros, and what is far below the greatest, stand on the edge.
+        assert!((ruler.at(1e-3) - 50.0).abs() < 1e-9);
+        // Zeros, and what is far below the greatest, stand on the edge, which says so.
         let ruler = of(&[1.0, 0.0, 1e-30]);
-        assert!(ruler.clipped && ruler.at(0.0) == 0.0 && ruler.at(1e-30) == 0.0 && ruler.at(0.5) > 90.0);
+        assert_eq!(ruler.ticks[0].1, "≤1e-8");
+        assert!(ruler.at(0.0) == 0.0 && ruler.at(1e-30) == 0.0 && ruler.at(0.5) > 90.0);
         let near = of(&[0.011, 0.013]);
         assert!(near.ticks.len() >= 2, "{:?}", near.ticks);
     }
@@ -496,6 +510,8 @@ mod tests {
         let axis = Axis { label: String::new(), scale: Scale::Linear };
         let ruler = Ruler::new(&axis, [0.0, 1000.0].into_iter(), 0.0, 1.0).unwrap();
         assert_eq!(ruler.ticks.iter().map(|t| t.0).collect::<Vec<_>>(), [0.0, 200.0, 400.0, 600.0, 800.0, 1000.0]);
+        let ruler = Ruler::new(&axis, [1.0, 120.0].into_iter(), 0.0, 1.0).unwrap();
+        assert_eq!(ruler.ticks.iter().map(|t| t.1.as_str()).collect::<Vec<_>>(), ["0", "20", "40", "60", "80", "100", "120"]);
         assert_eq!([0.9, 1.0, 1.1, 2.5, 7.0].map(linear_step), [1.0, 1.0, 2.0, 5.0, 10.0]);
     }
 

@@ -116,8 +116,8 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
     }
     let total: std::collections::BTreeSet<&str> = scenes.iter().flat_map(|s| s.methods.iter().map(|m| m.name.as_str())).collect();
     Some(format!(
-        "<p>Where a method errs: {} of {} methods, networks first, then the best over all scenes; exact ones have no curve. Colours and marks are the same in \
-         every chart.</p>\n{out}",
+        "<p>Where a method errs: {} of {} methods, networks first, then the best of each kind over all scenes; exact ones have no curve. Colours and marks \
+         are the same in every chart; the lowest line holds all that is smaller, 0 too.</p>\n{out}",
         names.len(),
         total.len()
     ))
@@ -184,7 +184,7 @@ mod tests {
     fn curves_have_a_point_a_bin_and_all_numbers_beside_them() {
         let html = curves(&sample()).unwrap();
         assert_eq!(html.matches("<svg").count(), 3);
-        for part in ["b&lt;, 5–8: T-MSE 2.50e-3, 9 fragments", "0.1–0.2", "lower edge", "All numbers", "2 of 2 methods"] {
+        for part in ["b&lt;, 5–8: T-MSE 2.50e-3, 9 fragments", "0.1–0.2", "≤1e-", "All numbers", "2 of 2 methods"] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         // Results of an older version have no bins.

@@ -132,7 +132,8 @@ impl Found {
                 }
             }
         }
-        files.sort();
+        // Upper folders first, so that of files with one content the one nearest the top is kept.
+        files.sort_by_key(|(name, _)| (name.matches('/').count(), name.clone()));
         let mut total = 0;
         let mut seen = HashMap::new();
         for (name, path) in files {
@@ -229,9 +230,9 @@ mod tests {
         std::os::unix::fs::symlink(folder.path(), at("loop")).unwrap();
         let found = Found::search(folder.path()).unwrap();
         let names: Vec<&str> = found.documents.iter().map(|d| d.name.as_str()).collect();
-        assert_eq!(names, ["e/results.json", "m/exports/m.json"]);
+        assert_eq!(names, ["e/results.json", "m/model.json"]);
         assert_eq!((found.documents[0].folder(), found.of("evaluate").count()), ("e/", 1));
-        assert_eq!(found.copies, [("m/model.json".to_owned(), "m/exports/m.json".to_owned())]);
+        assert_eq!(found.copies, [("m/exports/m.json".to_owned(), "m/model.json".to_owned())]);
         assert_eq!((found.losses.len(), found.pictures.len(), found.others), (1, 1, 2));
         let problems: Vec<&str> = found.problems.iter().map(|p| p.name.as_str()).collect();
         assert_eq!(problems, ["1/2/3/4/5/6/7", "broken.json", "deep.json", "huge.json"]);

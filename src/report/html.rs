@@ -63,6 +63,7 @@ pub fn number(x: f64) -> String {
         _ if x.is_nan() => "NaN".to_owned(),
         _ if x.is_infinite() => if x > 0.0 { "∞" } else { "-∞" }.to_owned(),
         0.0 => "0".to_owned(),
+        _ if size < 1e7 && x.fract() == 0.0 => thousands(x as i64),
         _ if (1000.0..1e7).contains(&size) => thousands(x.round() as i64),
         _ if (100.0..1000.0).contains(&size) => format!("{x:.0}"),
         _ if (10.0..100.0).contains(&size) => format!("{x:.1}"),
@@ -196,9 +197,10 @@ impl Table {
         let upright = if self.upright { " upright" } else { "" };
         let mut out =
             format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"data{upright}\">", self.caption);
-        out += &format!("<caption>{}</caption><thead><tr>", self.caption);
-        for name in &self.head {
-            out += &format!("<th scope=\"col\"><span>{name}</span></th>");
+        out += &format!("<caption><span>{}</span></caption><thead><tr>", self.caption);
+        for (i, name) in self.head.iter().enumerate() {
+            let numeric = self.rows.iter().any(|row| row.get(i).is_some_and(|cell| cell.numeric));
+            out += &format!("<th scope=\"col\"{}><span>{name}</span></th>", if numeric { " class=\"n\"" } else { "" });
         }
         out += "</tr></thead><tbody>\n";
         for row in self.rows.iter().take(MOST_ROWS) {
@@ -260,7 +262,9 @@ mod tests {
         let cases = [
             (0.0, "0"),
             (-0.0, "0"),
-            (1.0, "1.00"),
+            (1.0, "1"),
+            (50.0, "50"),
+            (1.5, "1.50"),
             (0.012_345, "0.012"),
             (5.3e-6, "5.30e-6"),
             (12.345, "12.3"),
@@ -284,7 +288,10 @@ mod tests {
             table.row(vec![Cell::text("<m>"), Cell::number(Some(f64::NAN)), Cell::number(None)]);
         }
         let html = table.html();
-        assert!(html.contains("<caption>a &amp; b</caption>") && html.contains("<th scope=\"col\"><span>method</span></th>"));
+        assert!(
+            html.contains("<caption><span>a &amp; b</span></caption>")
+                && html.contains("<th scope=\"col\"><span>method</span></th><th scope=\"col\" class=\"n\"><span>x</span></th>")
+        );
         assert!(html.contains("<th scope=\"row\">&lt;m&gt;</th><td class=\"n\">NaN</td><td class=\"n\">–</td>"));
         assert!(html.contains("2 more rows are left out") && html.matches("<tr>").count() == MOST_ROWS + 1);
     }

@@ -8,6 +8,9 @@ use super::scenes::{Method, Scene};
 use crate::evaluate::picture::file_stem;
 use std::collections::BTreeMap;
 
+/// Most pictures of a contact sheet that is open at first.
+const MOST_OPEN: usize = 15;
+
 /// Pictures of a scene by name in the folder.
 struct Wanted {
     truth: String,
@@ -111,7 +114,8 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
             }
         }
         if !figures.is_empty() {
-            let open = if sheets.is_empty() { " open" } else { "" };
+            // Long sheets wait to be asked for; the viewer shows their pictures meanwhile.
+            let open = if sheets.is_empty() && figures.matches("<figure").count() <= MOST_OPEN { " open" } else { "" };
             sheets += &format!(
                 "<details class=\"sheet\"{open}><summary>{}</summary><div class=\"shots\" data-scene=\"{i}\" data-label=\"{}\">\n{figures}</div></details>\n",
                 escape(&scene.label),
@@ -175,7 +179,7 @@ const VIEWER: &str = r#"<div class="viewer" id="viewer" hidden>
 <label class="range">Divider <input type="range" id="v-cut" min="0" max="100" step="0.5" value="50" aria-label="Divider: share of the width that shows the left image"></label>
 <p class="sides" id="v-text" aria-live="polite"></p>
 </div>
-<p class="note"><label class="check"><input type="checkbox" id="g-flip"> FLIP maps in the contact sheets</label> FLIP maps run from near black (no difference) to pale yellow (1); magenta is not finite.</p>
+<p class="note"><label class="check"><input type="checkbox" id="g-flip"> FLIP maps in the contact sheets</label><br>FLIP maps run from near black (no difference) to pale yellow (1); magenta is not finite.</p>
 <noscript><p class="note">The slider needs scripts; the contact sheets below do not.</p></noscript>
 "#;
 

@@ -51,13 +51,19 @@
       show();
     };
     const move = () => stage.style.setProperty("--cut", cut.value + "%");
+    let held = false;
     const drag = (event) => {
-      if (event.type === "pointerdown" && event.button === 0) stage.setPointerCapture(event.pointerId);
-      if (!stage.hasPointerCapture(event.pointerId)) return;
+      if (event.type === "pointerdown" && event.button === 0) {
+        held = true;
+        // Keeps the divider in hand beyond the picture's edge.
+        try { stage.setPointerCapture(event.pointerId); } catch { /* The pointer is gone already. */ }
+      }
+      if (!held) return;
       const box = stage.getBoundingClientRect();
       cut.value = (100 * (event.clientX - box.left)) / box.width;
       move();
     };
+    const drop = () => { held = false; };
     fill(scene, sheets.map((s) => s.label), 0);
     choose();
     scene.addEventListener("change", choose);
@@ -66,6 +72,8 @@
     cut.addEventListener("input", move);
     stage.addEventListener("pointerdown", drag);
     stage.addEventListener("pointermove", drag);
+    stage.addEventListener("pointerup", drop);
+    stage.addEventListener("pointercancel", drop);
     sheets.forEach((sheet, s) =>
       sheet.shots.forEach(({ shot }, i) =>
         shot.querySelector(".pick").addEventListener("click", () => {

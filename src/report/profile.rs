@@ -52,6 +52,9 @@ fn of_rows(title: &str, rows: &[Value]) -> String {
         return if texts.is_empty() { String::new() } else { definitions(&[(title, texts.join(", "))]) };
     }
     let bar = BARS.iter().find_map(|b| keys.iter().find(|k| k.as_str() == *b || k.ends_with(&format!("_{b}")))).copied();
+    // Names first, bars last.
+    let named = |k: &String| rows.iter().any(|r| r.get(k).is_some_and(Value::is_string));
+    keys.sort_by_key(|k| (!named(k), bar == Some(*k)));
     let numeric = |row: &Value, key: &String| row.get(key).and_then(Value::as_f64);
     let greatest = bar.map_or(0.0, |bar| rows.iter().filter_map(|r| numeric(r, bar)).fold(0.0, f64::max));
     let names: Vec<String> = keys.iter().map(|k| words(k)).collect();
@@ -83,7 +86,15 @@ mod tests {
         let result = json!({ "scene": "teapots <x>", "fragments": 41000, "classes": [{ "class": "empty", "share": 0.5 }, { "class": "one", "share": 0.25 }],
             "network": { "units_that_never_fire": 14, "layers": [7, 32] }, "nothing": [], "deep": { "a": { "b": { "c": { "d": { "e": 1 } } } } } });
         let html = section(&found("p/results.json", json!({ "command": "profile", "results": [result, 5] }))).unwrap();
-        for part in ["teapots &lt;x&gt;", "41,000", "<caption>classes</caption>", "--bar:50.0%", "units that never fire", "7, 32"] {
+        for part in [
+            "teapots &lt;x&gt;",
+            "41,000",
+            "<caption><span>classes</span></caption>",
+            "<th scope=\"row\">empty</th>",
+            "--bar:50.0%",
+            "units that never fire",
+            "7, 32",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         assert!(section(&Found::default()).is_none());

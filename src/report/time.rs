@@ -97,7 +97,7 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
     let groups = if benchmarked { measured } else { scenes.iter().map(of_scene).filter(|g| !g.rows.is_empty()).collect() };
     let mut out = String::new();
     for group in &groups {
-        out += &group.html();
+        out += &format!("<div>{}</div>\n", group.html());
     }
     if out.is_empty() {
         return (None, false);
@@ -108,7 +108,12 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
         "Times of nmt evaluate: one run of the reference implementation on the CPU, classic methods in f64 and networks in f32. For figures that hold, measure \
          with nmt bench methods."
     };
-    (Some(format!("<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and better.</p>\n{out}")), benchmarked)
+    (
+        Some(format!(
+            "<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and better.</p>\n<div class=\"plots\">{out}</div>"
+        )),
+        benchmarked,
+    )
 }
 
 fn of_scene(scene: &Scene) -> Group {

@@ -63,7 +63,7 @@ mod tests {
         assert_eq!((list(&value, "d").len(), list(&value, "e").len(), numbers(&value, &["a", "d"])), (4, 0, vec![1.0, 2.5]));
         assert!(number_or_nan(&value, "c", true).unwrap().is_nan());
         assert_eq!((number_or_nan(&value, "c", false), number_or_nan(&value, "a", true), number_or_nan(&value, "z", true)), (None, Some(1.0), None));
-        assert_eq!(["a", "b", "c", "f", "g"].map(|k| scalar(&value[k]).unwrap()), ["1", "x", "–", "-3.00", "18446744073709551615"]);
+        assert_eq!(["a", "b", "c", "f", "g"].map(|k| scalar(&value[k]).unwrap()), ["1", "x", "–", "-3", "18446744073709551615"]);
         assert!(scalar(&value["d"]).is_none());
         // Not an object at all.
         assert_eq!((number(&json!([1]), &["a"]), list(&json!("x"), "a").len()), (None, 0));
