@@ -20,6 +20,7 @@ pub mod numeric;
 pub mod oit;
 pub mod pixel;
 pub mod profile;
+pub mod report;
 pub mod scene;
 pub mod stress;
 pub mod synth;

@@ -14,7 +14,7 @@ use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
 use crate::oit::{Context, Method, all_names, parse};
-use crate::pixel::CameraPlanes;
+use crate::pixel::{CameraPlanes, FragmentList};
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -109,7 +109,7 @@ impl Evaluate {
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
             for (index, Asked { method, demanded, shader }) in methods.iter().enumerate() {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
-                let judged = match truth.judge(&**method, context) {
+                let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
                     Err(why) => {
                         refused |= *demanded;
@@ -137,7 +137,8 @@ impl Evaluate {
                         Err(why) => remarks += &format!("not on the GPU, {why}\n"),
                     }
                 }
-                stems.insert(stem);
+                stems.insert(stem.clone());
+                judged.result.picture = judged.picture.is_some().then_some(stem);
                 if let Some(sheet) = &mut sheet {
                     sheet.add(&judged)?;
                 }
@@ -153,7 +154,7 @@ impl Evaluate {
                 let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, &found));
                 ui.print(&format!("{heading}{}{on_gpu}{remarks}\n", rows(&found)))?;
             }
-            results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, gpu.as_ref())));
+            results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())));
         }
         let skip = Skip::from(self.skip);
         for result in results.iter_mut().filter_map(Value::as_object_mut) {
@@ -213,10 +214,14 @@ fn scene_names(fragments: &[String]) -> Vec<String> {
     names
 }
 
-fn with_scene(result: &MethodResult, scene: &str, gpu: Option<&GpuResult>) -> Value {
+/// A result with what it is of.
+fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList, gpu: Option<&GpuResult>) -> Value {
     let mut value = serde_json::to_value(result).expect("results are plain data");
     if let Some(object) = value.as_object_mut() {
         object.insert("scene".to_owned(), scene.into());
+        object.insert("pixels".to_owned(), list.pixels().into());
+        object.insert("fragments".to_owned(), list.len().into());
+        object.insert("depth_complexity".to_owned(), list.depth_complexity().into());
         if let Some(gpu) = gpu {
             object.insert("gpu".to_owned(), serde_json::to_value(gpu).expect("results are plain data"));
         }

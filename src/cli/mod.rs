@@ -11,6 +11,7 @@ mod import;
 mod interrupt;
 mod predict;
 mod profile;
+mod report;
 mod run;
 mod scene;
 mod stress;
@@ -66,6 +67,8 @@ enum Command {
     Stress(stress::Stress),
     /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
     Profile(profile::Profile),
+    /// Make one self-contained HTML page of what the other commands measured.
+    Report(report::Report),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -118,6 +121,7 @@ pub fn main() -> ExitCode {
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),
         Command::Profile(c) => c.execute(&ui),
+        Command::Report(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

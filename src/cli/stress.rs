@@ -358,7 +358,9 @@ fn case_tables(cases: &[Case], reports: &[Vec<Report>]) -> String {
         columns.push(std::iter::once(of_subject[0].method.clone()).chain(of_subject.iter().map(cell)).collect());
     }
     let width = |column: &Vec<String>| column.iter().map(|t| t.chars().count()).max().unwrap_or(0) + 2;
-    let mut text = "error of T, root mean square and worst over the finite answers; NaN, out: shares of answers that are not finite, outside [0, 1]\n\n".to_owned();
+    let mut text =
+        "error of T, root mean square and worst over the finite answers; NaN, out: shares of answers that are not finite, outside [0, 1]\n\n"
+            .to_owned();
     let mut next = 1;
     while next < columns.len() {
         let mut end = next + 1;

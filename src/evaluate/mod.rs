@@ -1,5 +1,6 @@
 //! Errors of methods against the exact answer, as numbers and as pictures.
 
+pub mod bins;
 pub mod flip;
 pub mod gpu;
 pub mod image;
@@ -7,6 +8,7 @@ pub mod judge;
 pub mod picture;
 mod text;
 
+pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};

@@ -140,7 +140,7 @@ impl<'a> Task<'a> {
             rows.pixels.push(p as u32);
         }
         // Nothing is left out altogether: another light may fall on it.
-        normalise(&mut rows.weights);
+        normalise(&mut [&mut rows.weights]);
         rows.weights.iter_mut().for_each(|w| *w = 0.9 * *w + 0.1);
         let held_out = self.asked.len() - rows.len();
         (rows, held_out)

@@ -384,7 +384,8 @@ impl TwoMoments {
                                 libm::exp(-others * share)
                             }
                             Self::Beta => {
-                                let row = [x, count, log, mean, spread, mean * (1.0 - spread) / (1.0 + spread), (spread / (1.0 + 2.0 * spread)).sqrt()];
+                                let row =
+                                    [x, count, log, mean, spread, mean * (1.0 - spread) / (1.0 + spread), (spread / (1.0 + 2.0 * spread)).sqrt()];
                                 mlp.forward::<f64>(&row.map(|f| f as f32))
                             }
                         },
@@ -453,14 +454,7 @@ pub(super) fn each_pixel(fragments: &Fragments, answer: impl Fn(Pixel<'_>, &mut 
 }
 
 /// Both passes over a pixel.
-fn answer_pixel<R: Real>(
-    mlp: &Mlp,
-    pixel: Pixel<'_>,
-    ends: [R; 2],
-    z: impl Fn(f32) -> R,
-    absorbance: impl Fn(f32) -> R,
-    out: &mut [f64],
-) {
+fn answer_pixel<R: Real>(mlp: &Mlp, pixel: Pixel<'_>, ends: [R; 2], z: impl Fn(f32) -> R, absorbance: impl Fn(f32) -> R, out: &mut [f64]) {
     match mlp.feature_set().moments() {
         4 => answer_of::<R, 4>(mlp, pixel, ends, z, absorbance, out),
         6 => answer_of::<R, 6>(mlp, pixel, ends, z, absorbance, out),
