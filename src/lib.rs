@@ -2,7 +2,7 @@
 //!
 //! Data flows down this list of modules, and a module imports only from those above it:
 //! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`export`],
-//! [`gpu`], [`check`], [`evaluate`], [`mod@bench`].
+//! [`gpu`], [`check`], [`evaluate`], [`mod@bench`], [`stress`], [`profile`] and [`report`].
 
 #![warn(missing_docs)]
 
@@ -19,6 +19,9 @@ pub mod moments;
 pub mod numeric;
 pub mod oit;
 pub mod pixel;
+pub mod profile;
+pub mod report;
 pub mod scene;
+pub mod stress;
 pub mod synth;
 pub mod train;

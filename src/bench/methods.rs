@@ -44,7 +44,7 @@ pub enum Contender {
     /// A method by its own.
     Method(Box<dyn Method>),
     /// A network, on the GPU in each of the forms that are asked for.
-    Network(Mlp),
+    Network(Box<Mlp>),
 }
 
 impl Contender {
@@ -271,7 +271,7 @@ impl Setting<'_> {
         let networks: Vec<Option<Neural>> = contenders
             .iter()
             .map(|c| match c {
-                Contender::Network(mlp) => Some(Neural::new(mlp.clone())),
+                Contender::Network(mlp) => Some(Neural::new((**mlp).clone())),
                 Contender::Method(_) => None,
             })
             .collect();
@@ -376,7 +376,7 @@ impl Setting<'_> {
                     None => left_out.push(LeftOut::new(method.name(), "has no shader", true)),
                 },
                 Contender::Network(mlp) => {
-                    let neural = Neural::new(mlp.clone());
+                    let neural = Neural::new((**mlp).clone());
                     for &format in formats {
                         if !half && is_half(format) {
                             left_out.push(LeftOut::new(contender.name(), format!("{}: the adapter has no f16", format.name()), true));
@@ -541,7 +541,7 @@ mod tests {
         let mlp = Mlp::new("r", FeatureSet::Recentred, random_mlp(&[4], 1).layers().to_vec(), Provenance::default()).unwrap();
         let mut all: Vec<Contender> =
             ["moment-power-4", "weighted-average", "abuffer"].map(|n| Contender::Method(oit::parse(n).unwrap())).into_iter().collect();
-        all.push(Contender::Network(mlp));
+        all.push(Contender::Network(Box::new(mlp)));
         all
     }
 

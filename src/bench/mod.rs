@@ -9,6 +9,7 @@ pub mod network;
 pub mod peak;
 pub mod scatter;
 pub mod summary;
+pub mod tiles;
 pub mod train;
 
 pub use network::Network;

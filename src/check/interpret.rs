@@ -263,6 +263,16 @@ impl<'a> Interpreter<'a> {
         self.run(function, arguments)?.0.ok_or(InterpretError::NoValue)
     }
 
+    /// Calls a function and returns what one of its pointer arguments points to in the end.
+    ///
+    /// # Errors
+    /// [`InterpretError`].
+    pub fn call_out<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>, at: usize) -> Result<Value<L>> {
+        let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
+        let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
+        self.run(function, arguments)?.1.into_iter().nth(at).ok_or(InterpretError::Operands("a call"))
+    }
+
     /// Calls a function of one array argument on rows of numbers; the result is a number a row.
     ///
     /// # Shapes

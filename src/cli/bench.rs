@@ -33,6 +33,8 @@ enum What {
     Infer(BenchInfer),
     /// Time of transparency methods and networks on a fragment list against their error, on the CPU and the GPU.
     Methods(methods::BenchMethods),
+    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only in the tiles that need it.
+    Tiles(super::bench_tiles::BenchTiles),
 }
 
 /// Options of every benchmark.
@@ -262,6 +264,7 @@ impl Bench {
             What::Generate(c) => c.execute(ui),
             What::Infer(c) => c.execute(ui),
             What::Methods(c) => c.execute(ui),
+            What::Tiles(c) => c.execute(ui),
         }
     }
 }

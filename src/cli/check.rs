@@ -91,17 +91,17 @@ pub fn to_json(finding: &Finding) -> Value {
         .map(|n| {
             json!({
                 "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(), "worst_error": n.export.worst(),
-                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar,
+                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar, "mean_bar": n.mean_bar,
             })
         })
         .collect();
-    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "numbers": numbers })
+    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "note": finding.note, "numbers": numbers })
 }
 
 /// A table of all findings, then the reasons of those that did not pass.
 fn text(findings: &[Finding]) -> String {
     let mut rows =
-        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own f32", "bar", "result"].map(str::to_owned).to_vec()];
+        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own pass", "bar", "result"].map(str::to_owned).to_vec()];
     let mut reasons = String::new();
     for f in findings {
         let result = match &f.status {
@@ -115,6 +115,12 @@ fn text(findings: &[Finding]) -> String {
                 "skipped"
             }
         };
+        if let Some(note) = &f.note {
+            let line = format!("{}: {note}\n", f.tool);
+            if !reasons.contains(&line) {
+                reasons += &line;
+            }
+        }
         let head = [f.format.name(), f.tool, f.question].map(str::to_owned);
         if f.numbers.is_empty() {
             rows.push(head.iter().cloned().chain(["", "", "", "", "", result].map(str::to_owned)).collect());

@@ -2,9 +2,10 @@
 
 use super::Verdict;
 use super::ui::Ui;
+use crate::check::rows;
 use crate::export::shader::Precision;
 use crate::export::{self, Format};
-use crate::model::file;
+use crate::model::{Mlp, file, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
@@ -20,10 +21,17 @@ pub struct Export {
     out: PathBuf,
     #[command(flatten)]
     formats: FormatArguments,
+    /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone: 1000000). Fewer multiply-adds; where such a unit
+    /// would fire after all, answers are off. The header says which were taken out, and 'nmt check' holds the exports to the whole network.
+    #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, default_missing_value = "1000000")]
+    prune: Option<usize>,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
 }
+
+/// Keeps the pixels that say which units are silent apart from those that exports are checked on.
+const PRUNE_SEED: u64 = 0x7072_756e_65;
 
 /// Options that say which exports are meant.
 #[derive(Args)]
@@ -104,17 +112,41 @@ impl FormatArguments {
     }
 }
 
+/// Number of hidden units.
+fn hidden(mlp: &Mlp) -> usize {
+    let sizes = mlp.sizes();
+    sizes[1..sizes.len() - 1].iter().sum()
+}
+
 impl Export {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let mlp = file::load(&self.model)?;
+        let whole = file::load(&self.model)?;
+        let mlp = match self.prune {
+            None => whole.clone(),
+            Some(0) => bail!("--prune=0: no row says that no unit fires; take 1000000"),
+            Some(rows) => {
+                let rows = rows::sampled(&whole, rows, PRUNE_SEED).map_err(anyhow::Error::msg)?;
+                simplify::pruned(&whole, &rows)?
+            }
+        };
         let formats = self.formats.formats()?;
         let paths = export::write(&mlp, &self.out, &formats, if self.force { Replace::Yes } else { Replace::No })?;
         if ui.json() {
-            let results = formats.iter().zip(&paths).map(|(f, path)| json!({ "format": f.name(), "network": mlp.shape(), "file": path })).collect();
+            let result = |(f, path): (&Format, &PathBuf)| {
+                json!({
+                    "format": f.name(), "network": mlp.shape(), "file": path, "multiply_adds": mlp.multiply_adds(),
+                    "multiply_adds_before": whole.multiply_adds(), "pruned_units": mlp.provenance.pruned.as_ref().map(|p| p.count()),
+                })
+            };
+            let results = formats.iter().zip(&paths).map(result).collect();
             ui.print_json("export", results)?;
         } else {
             for path in paths {
                 ui.print(&format!("{}\n", path.display()))?;
+            }
+            if let Some(pruned) = &mlp.provenance.pruned {
+                let (before, after) = (whole.multiply_adds(), mlp.multiply_adds());
+                ui.warn(&format!("{} of {} hidden units were taken out: {after} of {before} multiply-adds are left", pruned.count(), hidden(&whole)));
             }
         }
         Ok(Verdict::Fine)

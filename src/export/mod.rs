@@ -5,7 +5,7 @@
 //! shader compilers copy the array at each access. WGSL, GLSL and HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
 pub mod onnx;
-mod recentred;
+pub mod recentred;
 pub mod shader;
 pub mod translate;
 

@@ -1,8 +1,11 @@
 //! Shader source of the recentred features: the twin of [`crate::features::recentred`], unrolled for the number of moments.
 
-use super::shader::{ENTRY, Language};
+use super::shader::{ENTRY, Language, Numbers, Precision};
 use crate::features::FeatureSet;
-use crate::features::recentred::{ABSORBANCE_OFFSET, CLOSED_FORM_TOLERANCE, LEAST_HALF_RANGE};
+use crate::features::recentred::{
+    ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
+    MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+};
 use std::fmt::Write;
 
 /// Writes lines of any language.
@@ -126,11 +129,11 @@ impl Writer {
     fn give_answer(&mut self, features: &[String]) {
         let (n, list) = (features.len(), features.join(", "));
         match self.language {
-            Language::Wgsl => self.give(&format!("{ENTRY}(array<f32, {n}>({list}))")),
-            Language::Glsl => self.give(&format!("{ENTRY}(float[{n}]({list}))")),
+            Language::Wgsl => self.give(&format!("min({ENTRY}(array<f32, {n}>({list})), 1.0)")),
+            Language::Glsl => self.give(&format!("min({ENTRY}(float[{n}]({list})), 1.0)")),
             Language::Hlsl => {
                 self.statement(&format!("float features[{n}] = {{ {list} }};"));
-                self.give(&format!("{ENTRY}(features)"));
+                self.give(&format!("min({ENTRY}(features), 1.0)"));
             }
         }
     }
@@ -138,6 +141,9 @@ impl Writer {
 
 /// What the fragment's own data and what pass 1 left are called, in the order of parameters.
 const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
+
+/// Constant of what storage does to moments.
+pub const ROUNDING: &str = "NMT_ROUNDING";
 
 /// Functions of pass 1, and the one that looks at a fragment in pass 2.
 pub fn source(language: Language, set: FeatureSet) -> String {
@@ -149,9 +155,17 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     let chosen = w.select("alpha < 0.03", "faint", "-log(max(1.0 - alpha, 0.000045399931))");
     w.give(&chosen);
 
-    w.line("\n// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene.");
+    w.line("\n// ln(a / b), as accurate relative to itself where a is near b as elsewhere.");
+    w.function("nmt_log_ratio", &[("a", 0), ("b", 0)], 0);
+    w.bind("s", "(a - b) / (a + b)");
+    w.bind("q", "s * s");
+    let chosen = w.select("abs(s) < 0.2", "(s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))", "log(a / b)");
+    w.give(&chosen);
+
+    w.line("\n// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view");
+    w.line("// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.");
     w.function("nmt_moment_depth", &[("v", 0), ("v0", 0), ("v1", 0)], 0);
-    w.bind("warped", "2.0 * log(v / v0) / max(log(v1 / v0), 1e-30) - 1.0");
+    w.bind("warped", "2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0");
     let chosen = w.select("v1 > v0", "clamp(warped, -1.0, 1.0)", "0.0");
     w.give(&chosen);
 
@@ -160,6 +174,9 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     own_moments(&mut w, k);
     let items: Vec<String> = (1..=k).map(|i| format!("own{i}")).collect();
     w.give_array(&items);
+
+    w.line("\n// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.");
+    w.text += &Numbers { language, precision: Precision::F32 }.scalar_constant(ROUNDING, f32::EPSILON);
 
     w.line("\n// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
     w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
@@ -178,10 +195,12 @@ fn own_moments(w: &mut Writer, k: usize) {
 }
 
 fn look(w: &mut Writer, k: usize, hand: Hand) {
-    w.bind("others", "max(b0 - absorbance, 0.0)");
+    let most = w.number(MOST_ABSORBANCE);
+    w.bind("others", &format!("clamp(b0 - absorbance, 0.0, {most})"));
     w.leave(hand, "v == nearest", "1.0");
     w.leave(hand, "others <= 1e-6 * b0", "1.0");
-    w.leave(hand, "v == farthest", "exp(-others)");
+    // However coarse the exponential, no answer is above 1.
+    w.leave(hand, "v == farthest", "min(exp(-others), 1.0)");
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
     let least = w.number(LEAST_HALF_RANGE);
     w.bind("h", &format!("max(0.5 * (z_farthest - z_nearest), {least})"));
@@ -205,14 +224,20 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
         w.statement(&format!("m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
     }
-    w.bind("x", "clamp((z - c) / h, -1.0, 1.0)");
+    // In thin pixels view depth says more than moment depth.
+    w.bind("range", "farthest - nearest");
+    w.bind("ratio", "range / nearest");
+    w.bind("t", "(v - nearest) / max(range, 1e-30)");
+    let thin = w.number(THIN);
+    let x = w.select(&format!("ratio < {thin}"), "2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0", "(z - c) / h");
+    w.bind("x", &format!("clamp({x}, -1.0, 1.0)"));
 
     // Three fragments, and four.
     w.bind("share3", "clamp(0.5 * (1.0 - m1), 0.0, 1.0)");
-    w.leave(hand, "n == 3.0", "exp(-(others * share3))");
+    w.leave(hand, "n == 3.0", "min(exp(-(others * share3)), 1.0)");
     w.bind("reach", "1.0 + 2.0 * abs(c) / h");
     let epsilon = w.number(f32::EPSILON.into());
-    w.bind("e1", &format!("{epsilon} * reach * b0 * per_b0"));
+    w.bind("e1", &format!("{ROUNDING} * reach * b0 * per_b0"));
     if hand == Hand::Early {
         w.open("n == 4.0");
     }
@@ -248,30 +273,66 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         let chosen = w.select(&condition, value, "known");
         w.statement(&format!("known = {chosen};"));
     }
+    w.statement("known = min(known, 1.0);");
     if hand == Hand::Early {
         w.leave(hand, "known >= 0.0", "known");
         w.close();
     }
 
-    // The measure, and what is left of it without its ends.
+    // The measure, and what is left of it without its ends; what rounding has made noise of goes over to what is expected.
     let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
-    let mut items = vec!["x".to_owned()];
     let third = w.number(std::f64::consts::LOG2_E / 3.0);
-    items.push(format!("log(n) * {third} - 1.0"));
+    w.bind("count", &format!("log(n) * {third} - 1.0"));
     let offset = w.number(ABSORBANCE_OFFSET.into());
-    items.push(format!("log(others + {offset})"));
+    let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
+    let (usual, growth) = (w.number(USUAL_NOISE), w.number(NOISE_GROWTH));
+    w.bind("per_n", "1.0 / n");
+    w.bind("further", &format!("reach * {growth}"));
+    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
+    for i in 2..=4 {
+        w.bind(&format!("noise{i}"), &format!("noise{} * further", i - 1));
+    }
     for level in 0..k / 2 {
         let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
-        if level == 0 {
-            w.bind(&mean, "m1");
-            w.bind(&spread, "clamp((m2 - mean0 * mean0) / max(1.0 - mean0 * mean0, 1e-6), 0.0, 1.0)");
-        } else {
-            w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
-            w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
-            w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / max(1.0 - {mean} * {mean}, 1e-6), 0.0, 1.0))", q[2]));
+        let (first, second) = match level {
+            0 => (q[1].clone(), q[2].clone()),
+            _ => {
+                w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
+                (format!("{} * per_mass{level}", q[1]), format!("{} * per_mass{level}", q[2]))
+            }
+        };
+        let raw = match level {
+            0 => first,
+            _ => format!("clamp({first}, -1.0, 1.0)"),
+        };
+        match level {
+            0 => {
+                let deviation = by_count(w, MEAN_DEVIATION);
+                shrunk(w, &mean, &raw, "0.0", "noise1", &deviation);
+            }
+            1 => {
+                let deviation = by_count(w, INNER_MEAN_DEVIATION);
+                let expected = "mean0 * (1.0 - spread0) / (1.0 + spread0)";
+                shrunk(w, &mean, &raw, expected, "noise3 * per_mass1", &format!("({deviation}) * (spread0 + 0.02)"));
+            }
+            _ => w.bind(&mean, &raw),
+        }
+        w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
+        let raw = format!("clamp(({second} - {mean} * {mean}) / most{level}, 0.0, 1.0)");
+        match level {
+            0 => {
+                let (deviation, expected) = (by_count(w, SPREAD_DEVIATION), by_count(w, USUAL_SPREAD));
+                shrunk(w, &spread, &raw, &expected, "noise2 / most0", &deviation);
+            }
+            1 => {
+                let (deviation, usual) = (by_count(w, INNER_SPREAD_DEVIATION), by_count(w, USUAL_INNER_SPREAD));
+                let expected = format!("({usual}) * spread0 / (1.0 + spread0 + spread0)");
+                shrunk(w, "square1", &raw, &expected, "noise4 * per_mass1 / most1", &format!("({deviation}) * (spread0 + 0.02)"));
+                w.bind(&spread, "sqrt(square1)");
+            }
+            _ => w.bind(&spread, &format!("sqrt({raw})")),
         }
         if level >= 2 {
-            // Fades out what rounding has made noise of.
             for (name, moment, value) in [
                 (format!("sure_{mean}"), 2 * level + 1, format!("{mean} * trust_{mean}")),
                 (format!("sure_{spread}"), 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}")),
@@ -304,6 +365,18 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         }
         Hand::Early => w.give_answer(&items),
     }
+}
+
+/// a + b/n.
+fn by_count(w: &Writer, quantity: ByCount) -> String {
+    format!("{} + {} * per_n", w.number(quantity.many), w.number(quantity.few))
+}
+
+/// Twin of the function of this name beside the features.
+fn shrunk(w: &mut Writer, name: &str, value: &str, expected: &str, noise: &str, deviation: &str) {
+    w.bind(&format!("expected_{name}"), expected);
+    w.bind(&format!("ratio_{name}"), &format!("({noise}) / ({deviation})"));
+    w.bind(name, &format!("expected_{name} + ({value} - expected_{name}) / (1.0 + ratio_{name} * ratio_{name})"));
 }
 
 /// The function that a renderer calls in pass 2: known answers where there are, the network where there are none.

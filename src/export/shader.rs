@@ -2,6 +2,7 @@
 
 use super::{ExportError, recentred};
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE, MomentDepthKind};
+use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
 use crate::numeric::quantise::round_f16;
 use std::fmt::Write;
@@ -89,9 +90,9 @@ impl Language {
 
 /// Numbers of one precision in one language.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Numbers {
-    language: Language,
-    precision: Precision,
+pub(super) struct Numbers {
+    pub language: Language,
+    pub precision: Precision,
 }
 
 impl Numbers {
@@ -148,7 +149,7 @@ impl Numbers {
     }
 
     /// `const NAME: TYPE = value;` of a scalar.
-    fn scalar_constant(self, name: &str, value: f32) -> String {
+    pub fn scalar_constant(self, name: &str, value: f32) -> String {
         match self.language {
             Language::Wgsl => format!("const {name}: {} = {};\n", self.scalar(), self.literal(value)),
             Language::Glsl => format!("const float {name} = {};\n", self.literal(value)),
@@ -174,6 +175,15 @@ fn shortest_half(x: f32) -> f32 {
     let half = round_f16(x.into());
     let candidates = (0..8).filter_map(|digits| format!("{half:.digits$e}").parse::<f32>().ok());
     candidates.into_iter().find(|&c| round_f16(c.into()) == half).unwrap_or(half as f32)
+}
+
+/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
+/// bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
+pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
+    match set {
+        FeatureSet::Paper | FeatureSet::DeepWeightedBlended => (1e-1, 2e-3),
+        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (1e-1, 1e-3),
+    }
 }
 
 /// Greatest finite f16.
@@ -268,12 +278,13 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
         },
     ];
     if kind.language == Language::Hlsl {
-        lines.push(
-            "HLSL, shader model 5 and later. Functions that give an array write it to their last parameter: float b[4]; nmt_f(..., b);".to_owned(),
-        );
+        lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
     }
     if let Some(limit) = limit {
-        lines.extend(half_lines(kind.language, limit));
+        lines.extend(half_lines(kind.language, limit, half_bounds(set)));
+    }
+    if let Some(pruned) = &mlp.provenance.pruned {
+        lines.extend(pruned_lines(pruned, kind.form));
     }
     lines.extend([String::new(), format!("Features, set '{}', in this order: {}.", set.name(), set.columns().join(", "))]);
     lines.extend(set.description().iter().map(|&l| l.to_owned()));
@@ -302,15 +313,32 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
 }
 
 /// What is to be known of half precision.
-fn half_lines(language: Language, limit: f32) -> Vec<String> {
+fn half_lines(language: Language, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
     let mut lines = vec![
         "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are f32.".to_owned(),
         format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
+        format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
     ];
     if language == Language::Hlsl {
         lines.push("DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise.".to_owned());
     }
     lines
+}
+
+/// What the header's line that says which units were taken out begins with.
+pub const PRUNED: &str = "Pruned: ";
+
+/// What is to be known of units that were taken out.
+fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
+    let bits = if form == Form::Plain { ", to the bit" } else { ", but for the order of sums" };
+    let region = match (pruned.count(), pruned.rows) {
+        (0, _) => "Every unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
+        (n, 0) => format!("These {n} units cannot fire, or nothing listens to them: exact for all features{bits}."),
+        (n, rows) => format!(
+            "These {n} units fired on none of {rows} random rows of the training distribution, or cannot. Where none of them would fire, answers are exact{bits}; elsewhere anything may happen."
+        ),
+    };
+    [format!("{PRUNED}{}.", pruned.to_text()), region]
 }
 
 /// Text from a file, made safe inside a line comment.

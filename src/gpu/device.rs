@@ -2,6 +2,7 @@
 
 use bytemuck::Pod;
 use std::sync::OnceLock;
+use std::time::Instant;
 use wgpu::util::DeviceExt;
 
 /// Why the GPU did not do what it was asked.
@@ -26,6 +27,9 @@ pub enum GpuError {
         /// What it lacks.
         feature: &'static str,
     },
+    /// The fragment list makes no image.
+    #[error("there is no image: {0}")]
+    NoImage(String),
     /// More data than a buffer of the device holds.
     #[error("{what} takes {bytes} bytes, and {adapter} holds at most {most} in one buffer; take fewer fragments")]
     TooLarge {
@@ -104,12 +108,18 @@ impl Gpu {
     pub fn open() -> Result<Self, GpuError> {
         // Looking for OpenGL alone makes some drivers write to stderr.
         match std::env::var_os("WGPU_BACKEND") {
-            Some(_) => Self::open_on(wgpu::Backends::all()),
-            None => Self::open_on(wgpu::Backends::PRIMARY).or_else(|_| Self::open_on(wgpu::Backends::all())),
+            Some(_) => Self::open_on(wgpu::Backends::all(), WANTED),
+            None => Self::open_on(wgpu::Backends::PRIMARY, WANTED).or_else(|_| Self::open_on(wgpu::Backends::all(), WANTED)),
         }
     }
 
-    fn open_on(backends: wgpu::Backends) -> Result<Self, GpuError> {
+    /// A device that does not use these features, whatever the adapter has.
+    #[cfg(test)]
+    pub(crate) fn open_without(features: wgpu::Features) -> Result<Self, GpuError> {
+        Self::open_on(wgpu::Backends::all(), WANTED - features)
+    }
+
+    fn open_on(backends: wgpu::Backends, wanted: wgpu::Features) -> Result<Self, GpuError> {
         pollster::block_on(async {
             let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
             let instance = wgpu::Instance::new(descriptor.with_env());
@@ -129,7 +139,7 @@ impl Gpu {
             let info = adapter.get_info();
             let descriptor = wgpu::DeviceDescriptor {
                 label: Some("nmt"),
-                required_features: adapter.features() & WANTED,
+                required_features: adapter.features() & wanted,
                 required_limits: adapter.limits(),
                 memory_hints: wgpu::MemoryHints::Performance,
                 ..Default::default()
@@ -243,6 +253,12 @@ impl Gpu {
         Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents: bytes, usage }))
     }
 
+    /// A uniform buffer that holds these words.
+    pub fn uniform(&self, what: &'static str, words: &[u32]) -> wgpu::Buffer {
+        let contents = bytemuck::cast_slice(words);
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents, usage: wgpu::BufferUsages::UNIFORM })
+    }
+
     /// A storage buffer of zeros.
     ///
     /// # Errors
@@ -295,43 +311,95 @@ impl Gpu {
         done.map(|_| ()).map_err(|e| GpuError::Refused { label: "wait".to_owned(), reason: e.to_string() })
     }
 
-    /// Runs dispatches one after the other, waits, and says how long each took \[s\]: by timestamps on the device where it has them, else none.
+    /// Runs dispatches one after the other, waits, and says how long each took \[s\], as [`Self::timed`] does.
     ///
     /// # Errors
     /// [`GpuError::Refused`].
     pub fn run(&self, label: &str, dispatches: &[Dispatch<'_>]) -> Result<Option<Vec<f64>>, GpuError> {
-        let timer = self.has_timestamps().then(|| Timer::new(self, dispatches.len()));
+        let seconds = self.timed(label, dispatches.len(), |index, encoder, stamps| {
+            let dispatch = &dispatches[index];
+            let entries: Vec<wgpu::BindGroupEntry<'_>> = dispatch
+                .buffers
+                .iter()
+                .enumerate()
+                .map(|(i, buffer)| wgpu::BindGroupEntry { binding: i as u32, resource: buffer.as_entire_binding() })
+                .collect();
+            let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(label),
+                layout: &dispatch.pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: stamps.compute() });
+            pass.set_pipeline(dispatch.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
+        })?;
+        Ok(Some(seconds))
+    }
+
+    /// Whether [`Self::timed`] reads timestamps of the device, rather than the clock.
+    ///
+    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before it has run.
+    pub fn stamps(&self) -> bool {
+        self.has_timestamps() && !self.is_software()
+    }
+
+    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by timestamps of the device, or where
+    /// those are missing or not to be trusted by the clock around each, which is then submitted and waited for by itself.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`].
+    pub fn timed(&self, label: &str, passes: usize, record: impl Fn(usize, &mut wgpu::CommandEncoder, Stamps<'_>)) -> Result<Vec<f64>, GpuError> {
+        if !self.stamps() {
+            let mut seconds = Vec::with_capacity(passes);
+            for index in 0..passes {
+                let commands = self.checked(label, || {
+                    let mut encoder = self.device.create_command_encoder(&Default::default());
+                    record(index, &mut encoder, Stamps(None));
+                    encoder.finish()
+                })?;
+                let start = Instant::now();
+                self.checked(label, || self.queue.submit([commands]))?;
+                self.wait()?;
+                seconds.push(start.elapsed().as_secs_f64());
+            }
+            return Ok(seconds);
+        }
+        let timer = Timer::new(self, passes);
         self.checked(label, || {
             let mut encoder = self.device.create_command_encoder(&Default::default());
-            for (index, dispatch) in dispatches.iter().enumerate() {
-                let entries: Vec<wgpu::BindGroupEntry<'_>> = dispatch
-                    .buffers
-                    .iter()
-                    .enumerate()
-                    .map(|(i, buffer)| wgpu::BindGroupEntry { binding: i as u32, resource: buffer.as_entire_binding() })
-                    .collect();
-                let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some(label),
-                    layout: &dispatch.pipeline.get_bind_group_layout(0),
-                    entries: &entries,
-                });
-                let timestamp_writes = timer.as_ref().map(|t| wgpu::ComputePassTimestampWrites {
-                    query_set: &t.queries,
-                    beginning_of_pass_write_index: Some(2 * index as u32),
-                    end_of_pass_write_index: Some(2 * index as u32 + 1),
-                });
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
-                pass.set_pipeline(dispatch.pipeline);
-                pass.set_bind_group(0, &group, &[]);
-                pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
+            for index in 0..passes {
+                record(index, &mut encoder, Stamps(Some((&timer, index as u32))));
             }
-            if let Some(timer) = &timer {
-                timer.resolve(&mut encoder);
-            }
+            timer.resolve(&mut encoder);
             self.queue.submit([encoder.finish()]);
         })?;
         self.wait()?;
-        timer.map(|t| t.seconds(self)).transpose()
+        timer.seconds(self)
+    }
+}
+
+/// Where a pass writes its timestamps.
+#[derive(Debug, Clone, Copy)]
+pub struct Stamps<'a>(Option<(&'a Timer, u32)>);
+
+impl<'a> Stamps<'a> {
+    /// For a compute pass.
+    pub fn compute(self) -> Option<wgpu::ComputePassTimestampWrites<'a>> {
+        self.0.map(|(timer, index)| wgpu::ComputePassTimestampWrites {
+            query_set: &timer.queries,
+            beginning_of_pass_write_index: Some(2 * index),
+            end_of_pass_write_index: Some(2 * index + 1),
+        })
+    }
+
+    /// For a render pass.
+    pub fn render(self) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+        self.0.map(|(timer, index)| wgpu::RenderPassTimestampWrites {
+            query_set: &timer.queries,
+            beginning_of_pass_write_index: Some(2 * index),
+            end_of_pass_write_index: Some(2 * index + 1),
+        })
     }
 }
 

@@ -31,7 +31,8 @@ pub enum Composite {
 /// # Contract
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
 /// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
-/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it.
+/// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
+/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers.
 ///
 /// No name of it but these begins with `oit_`.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,11 +76,17 @@ fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{
 
 fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
     return nmt_fragment_transmittance(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
-        array<f32, {k}>({}));
+        array<f32, {k}>({sums}));
+}}
+
+fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    return nmt_recentred(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
+        array<f32, {k}>({sums}))[{width}];
 }}
 ",
                 moments("m", 0),
-                moments("p.sums", 1)
+                sums = moments("p.sums", 1),
+                width = set.width()
             ),
             FeatureSet::Paper => "
 fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {
@@ -103,15 +110,27 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
     }
 
+    /// Whether the source has a short form of the weight.
+    pub fn has_short_weight(&self) -> bool {
+        self.source.contains("fn oit_short_weight(")
+    }
+
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
     pub fn module(&self) -> String {
         let (directives, rest): (Vec<&str>, Vec<&str>) = self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
             MomentDepthKind::Log => {
                 "
-// Moment depth of v; range holds 1/v0 and 2/ln(v1/v0), v0 and v1 the scene's least and greatest v.
+// ln(a / b), as accurate relative to itself where a is near b as elsewhere.
+fn oit_log_ratio(a: f32, b: f32) -> f32 {
+    let s = (a - b) / (a + b);
+    let q = s * s;
+    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))), abs(s) < 0.2);
+}
+
+// Moment depth of v; range holds v0 and 2/ln(v1/v0), v0 and v1 the scene's least and greatest v, or 0 where they are one.
 fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
-    return clamp(log(v * range.x) * range.y - 1.0, -1.0, 1.0);
+    return select(0.0, clamp(oit_log_ratio(v, range.x) * range.y - 1.0, -1.0, 1.0), range.y > 0.0);
 }
 "
             }
@@ -127,7 +146,7 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
         format!("{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n", directives.join("\n"), self.sums, include_str!("prelude.wgsl"), rest.join("\n"))
     }
 
-    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene 1/v0 and 2/ln(v1/v0), or the camera's planes.
+    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes.
     ///
     /// # Errors
     /// [`GpuError::Source`] where planes are needed and unknown.
@@ -141,10 +160,8 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
             }
             MomentDepthKind::Log | MomentDepthKind::None => {
                 let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
-                let (v0, v1) = (f64::from(v0), f64::from(v1));
-                // Where both are one, all depths are 0 = ln(e v/v0) - 1.
-                let scale = if v1 > v0 { [1.0 / v0, 2.0 / libm::log(v1 / v0)] } else { [std::f64::consts::E / v0, 1.0] };
-                Ok(scale.map(|x| x as f32))
+                let scale = if v1 > v0 { 2.0 / libm::log(f64::from(v1) / f64::from(v0)) } else { 0.0 };
+                Ok([v0, scale as f32])
             }
         }
     }

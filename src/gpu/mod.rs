@@ -7,6 +7,8 @@ pub mod compute;
 pub mod device;
 pub mod list;
 pub mod method;
+pub mod pipeline;
+pub mod tiles;
 
 pub use device::{Gpu, GpuError};
 pub use method::MethodShader;

@@ -70,7 +70,7 @@ mod tests {
     /// The fast rounding is the other one's, for every exponent, for halves, what lies halfway between them, and their neighbours.
     #[test]
     fn halves_of_f32() {
-        let mut compare = |x: f32| assert_eq!(round_f16_of_f32(x).to_bits(), (round_f16(x.into()) as f32).to_bits(), "{x:e}");
+        let compare = |x: f32| assert_eq!(round_f16_of_f32(x).to_bits(), (round_f16(x.into()) as f32).to_bits(), "{x:e}");
         for high in 0..1u32 << 16 {
             for low in [0, 1, 0x7fff, 0x8000, 0x8001, 0xffff, 0x0fff, 0x1000, 0x1001, 0x3000, 0x2fff] {
                 let x = f32::from_bits((high << 16) | low);

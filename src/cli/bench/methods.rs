@@ -174,7 +174,7 @@ impl BenchMethods {
             }
         }
         for path in &self.model {
-            let contender = Contender::Network(file::load(path)?);
+            let contender = Contender::Network(Box::new(file::load(path)?));
             demanded.insert(contender.name());
             contenders.push(contender);
         }
