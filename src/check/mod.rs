@@ -201,7 +201,7 @@ impl Reference {
                 .iter()
                 .map(|r| {
                     let fired = r.features.chunks_exact(width).filter(|row| fires(whole, &pruned.units, row)).count();
-                    format!("{fired} of {} rows {}", r.features.len() / width, r.kind.name())
+                    format!("{fired} of {} rows ({})", r.features.len() / width, r.kind.name())
                 })
                 .collect();
             format!(
@@ -672,8 +672,14 @@ mod tests {
         let findings = check(&whole, folder.path(), &Format::ALL, FEW, &|_| {});
         assert_eq!(failures(&findings), Vec::<String>::new());
         let notes: Vec<&String> = findings.iter().filter_map(|f| f.note.as_ref()).collect();
-        assert!(notes.len() >= 8 && notes.iter().all(|n| n.contains("would fire on 0 of 2000 rows in distribution")
-            || n.contains("would fire on 0 of 4000 rows in distribution")), "{notes:?}");
+        assert!(
+            notes.len() >= 8
+                && notes
+                    .iter()
+                    .all(|n| n.contains("would fire on 0 of 2000 rows (in distribution)")
+                        || n.contains("would fire on 0 of 4000 rows (in distribution)")),
+            "{notes:?}"
+        );
 
         let active = (0..12).find(|u| !left.provenance.pruned.as_ref().unwrap().units[0].contains(u)).unwrap();
         let units = vec![vec![active], vec![]];

@@ -31,7 +31,7 @@ pub struct Export {
 }
 
 /// Keeps the pixels that say which units are silent apart from those that exports are checked on.
-const PRUNE_SEED: u64 = 0x7072_756e_65;
+const PRUNE_SEED: u64 = 0x0070_7275_6e65;
 
 /// Options that say which exports are meant.
 #[derive(Args)]

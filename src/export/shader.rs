@@ -332,10 +332,11 @@ pub const PRUNED: &str = "Pruned: ";
 fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
     let bits = if form == Form::Plain { ", to the bit" } else { ", but for the order of sums" };
     let region = match (pruned.count(), pruned.rows) {
-        (0, _) => "Every unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
-        (n, 0) => format!("These {n} units cannot fire, or nothing listens to them: exact for all features{bits}."),
-        (n, rows) => format!(
-            "These {n} units fired on none of {rows} random rows of the training distribution, or cannot. Where none of them would fire, answers are exact{bits}; elsewhere anything may happen."
+        (0, _) => "Every hidden unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
+        (_, 0) => format!("What was taken out cannot fire, or nothing listens to it: answers are exact for all features{bits}."),
+        (_, rows) => format!(
+            "What was taken out fired on none of {rows} random rows of the training distribution. Where it would not fire, answers are exact{bits}; elsewhere \
+             they are off by what it would add."
         ),
     };
     [format!("{PRUNED}{}.", pruned.to_text()), region]

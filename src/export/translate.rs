@@ -150,7 +150,7 @@ fn with_string(words: &[u32], text: &str) -> Vec<u32> {
 /// Instructions of a SPIR-V module: opcode and operands; none where it is not one.
 pub fn instructions(bytes: &[u8]) -> Option<Vec<(u32, Vec<u32>)>> {
     let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-    if bytes.len() % 4 != 0 || words.first() != Some(&0x0723_0203) || words.len() < 5 {
+    if !bytes.len().is_multiple_of(4) || words.first() != Some(&0x0723_0203) || words.len() < 5 {
         return None;
     }
     let (mut at, mut out) = (5, Vec::new());
