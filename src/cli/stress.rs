@@ -6,9 +6,10 @@ use crate::features::MomentFrame;
 use crate::model::{Mlp, file};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::oit::{Method, all_names, parse};
-use crate::stress::bias::{self, BiasPoint};
+use crate::stress::bias::{self, BiasPoint, Kept};
 use crate::stress::plot::{Chart, Line};
 use crate::stress::random::{Counts, hunt};
+use crate::stress::rows;
 use crate::stress::subject::{TwoMoments, with_digits};
 use crate::stress::sweep::{self, Point};
 use crate::stress::{Case, Classic, Doubles, Execution, Promise, Report, Subject, measure};
@@ -122,12 +123,13 @@ impl Stress {
         let cases = self.cases()?;
         let subjects: Vec<&Subject<'_>> = networks.iter().chain(&classic).chain(&executions).collect();
         let reports = run(ui, &cases, &subjects);
+        let features: Vec<Report> = mlps.iter().map(rows::reports).collect::<Result<Vec<_>, _>>()?.concat();
         let found = self.random(ui, &mlps)?;
         let biases = if self.bias { bias::points(self.pixels) } else { Vec::new() };
         let points = if self.out.is_some() { self.sweeps(ui, &mlps)? } else { Vec::new() };
 
-        let broken: Vec<String> = reports.iter().flatten().flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
-        let results = results(&reports, &found, &biases, &points);
+        let broken: Vec<String> = reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
+        let results = results(&cases, &reports, &features, &found, &biases, &points);
         if let Some(out) = &self.out {
             create_folder(out)?;
             let text = serde_json::to_string_pretty(&report("stress", results.clone()))? + "\n";
@@ -140,6 +142,7 @@ impl Stress {
             let shown = networks.len() + classic.len();
             ui.print(&case_tables(&cases, &reports[..shown]))?;
             ui.print(&execution_table(&[&reports[..networks.len()], &reports[shown..]].concat()))?;
+            ui.print(&feature_table(&features))?;
             ui.print(&range_table(&points))?;
             ui.print(&random_table(&found))?;
             ui.print(&bias_table(&biases))?;
@@ -295,7 +298,14 @@ fn run(ui: &Ui, cases: &[Case], subjects: &[&Subject<'_>]) -> Vec<Vec<Report>> {
     reports
 }
 
-fn results(reports: &[Vec<Report>], found: &[Found], biases: &[BiasPoint], points: &[Point]) -> Vec<Value> {
+fn results(
+    cases: &[Case],
+    reports: &[Vec<Report>],
+    features: &[Report],
+    found: &[Found],
+    biases: &[BiasPoint],
+    points: &[Point],
+) -> Vec<Value> {
     let kind = |name: &str, mut value: Value| {
         if let Some(object) = value.as_object_mut() {
             object.insert("kind".to_owned(), name.into());
@@ -304,7 +314,12 @@ fn results(reports: &[Vec<Report>], found: &[Found], biases: &[BiasPoint], point
     };
     let plain = |value: Result<Value, serde_json::Error>| value.expect("results are plain data");
     let mut results = Vec::new();
-    results.extend(reports.iter().flatten().map(|r| kind("case", plain(serde_json::to_value(r)))));
+    let what = |name: &str| cases.iter().map(|c| (c.name, c.what)).chain(rows::KINDS).find(|c| c.0 == name).map(|c| c.1);
+    results.extend(reports.iter().flatten().map(|r| ("case", r)).chain(features.iter().map(|r| ("features", r))).map(|(name, r)| {
+        let mut value = plain(serde_json::to_value(r));
+        value["what"] = json!(what(&r.case));
+        kind(name, value)
+    }));
     results.extend(found.iter().map(|f| {
         let mut value = plain(serde_json::to_value(f.counts));
         value["method"] = json!(f.network);
@@ -375,7 +390,26 @@ fn case_tables(cases: &[Case], reports: &[Vec<Report>]) -> String {
         text += "\n";
         next = end;
     }
-    text
+    let what: Vec<Vec<String>> = std::iter::once(["case", "what it is"]).chain(cases.iter().map(|c| [c.name, c.what])).map(cells).collect();
+    text + &table(&what) + "\n"
+}
+
+fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
+    texts.map(str::to_owned).to_vec()
+}
+
+/// Feature rows by formats of weights.
+fn feature_table(reports: &[Report]) -> String {
+    if reports.is_empty() {
+        return String::new();
+    }
+    let mut rows = vec![cells(["features alone", "rows", "not finite", "out of range", "worst against f64", "rms against f64"])];
+    for r in reports {
+        let counts = [r.fragments, r.nonfinite, r.out_of_range].map(|n| n.to_string());
+        let errors = [short(r.worst_rounding), short(r.rounding_mse.map(f64::sqrt))];
+        rows.push([vec![format!("{}: {}", r.method, r.case)], counts.to_vec(), errors.to_vec()].concat());
+    }
+    format!("{}\n", table(&rows))
 }
 
 /// Cases whose errors the ways of running a network are compared by.
@@ -441,33 +475,45 @@ fn random_table(found: &[Found]) -> String {
     format!("{}\n", table(&rows))
 }
 
+/// Strengths in rows, number of moments and storage in columns.
 fn bias_table(biases: &[BiasPoint]) -> String {
     if biases.is_empty() {
         return String::new();
     }
-    let head = ["moments", "storage", "moment_bias", "NaN", "NaN, single", "T-MSE", ""];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
-    let best = bias::recommended(biases);
+    let mut columns: Vec<(usize, Kept)> = Vec::new();
+    let mut strengths: Vec<f64> = Vec::new();
     for p in biases {
-        let share = |count: u64, of: u64| if count == 0 { "0".to_owned() } else { percent(count as f64 / of as f64) };
-        let mut remarks = Vec::new();
-        if p.published {
-            remarks.push("published");
+        if !columns.contains(&(p.moments, p.storage)) {
+            columns.push((p.moments, p.storage));
         }
-        if best.contains(p) {
-            remarks.push("least error without NaN");
+        if !strengths.contains(&p.moment_bias) {
+            strengths.push(p.moment_bias);
         }
-        rows.push(vec![
-            p.moments.to_string(),
-            p.storage.name().to_owned(),
-            format!("{:e}", p.moment_bias),
-            share(p.nonfinite, p.fragments),
-            share(p.single_nonfinite, p.singles),
-            p.mse.map_or("-".to_owned(), |mse| format!("{mse:.3e}")),
-            remarks.join(", "),
-        ]);
     }
-    format!("{}\n", table(&rows))
+    strengths.sort_by(f64::total_cmp);
+    let best = bias::recommended(biases);
+    let head = columns.iter().map(|(m, storage)| format!("moment-power-{m}:{}", storage.name()));
+    let mut rows = vec![std::iter::once("moment_bias".to_owned()).chain(head).collect::<Vec<_>>()];
+    for strength in strengths {
+        let cell = |&(moments, storage): &(usize, Kept)| {
+            let Some(p) = biases.iter().find(|p| (p.moments, p.storage, p.moment_bias) == (moments, storage, strength)) else { return String::new() };
+            let mut text = p.mse.map_or("-".to_owned(), |mse| format!("{mse:.2e}"));
+            for (name, count, of) in [("NaN", p.nonfinite, p.fragments), ("single", p.single_nonfinite, p.singles)] {
+                if count > 0 {
+                    text += &format!(" {name} {}", percent(count as f64 / of as f64));
+                }
+            }
+            text += if p.published { " p" } else { "" };
+            text += if best.contains(p) { " *" } else { "" };
+            text
+        };
+        rows.push(std::iter::once(format!("{strength:e}")).chain(columns.iter().map(cell)).collect());
+    }
+    format!(
+        "T-MSE of the finite answers by moment_bias; NaN, single: shares of answers without a number on random pixels, on single fragments; p: published; *: least \
+         error without NaN\n\n{}\n",
+        table(&rows)
+    )
 }
 
 /// Charts of the three sweeps.

@@ -4,7 +4,7 @@ use super::shader::{ENTRY, Language, Numbers, Precision};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
     ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
-    MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, STRADDLE, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use std::fmt::Write;
 
@@ -233,11 +233,15 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
     w.bind("x", &format!("clamp({x}, -1.0, 1.0)"));
 
     // Three fragments, and four.
-    w.bind("share3", "clamp(0.5 * (1.0 - m1), 0.0, 1.0)");
-    w.leave(hand, "n == 3.0", "min(exp(-(others * share3)), 1.0)");
     w.bind("reach", "1.0 + 2.0 * abs(c) / h");
     let epsilon = w.number(f32::EPSILON.into());
     w.bind("e1", &format!("{ROUNDING} * reach * b0 * per_b0"));
+    let (usual, deviation) = (w.number(USUAL_NOISE), by_count(w, MEAN_DEVIATION));
+    w.bind("per_n", "1.0 / n");
+    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
+    shrunk(w, "mean0", "m1", "0.0", "noise1", &deviation);
+    w.bind("share3", "clamp(0.5 * (1.0 - mean0), 0.0, 1.0)");
+    w.leave(hand, "n == 3.0", "min(exp(-(others * share3)), 1.0)");
     if hand == Hand::Early {
         w.open("n == 4.0");
     }
@@ -251,7 +255,8 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
     w.bind("gap", "1.0 + side * u");
     w.bind("safe_gap", "max(gap, 1e-30)");
     w.bind("end", "0.5 * (1.0 - side * m1 - inner / safe_gap)");
-    let straddles = w.select("abs((z - c) / h - u) <= u_error", &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
+    let straddle = w.number(STRADDLE);
+    let straddles = w.select(&format!("abs((z - c) / h - u) <= {straddle} * u_error"), &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
     w.bind("error", &format!("0.5 * (e1 + e2 / safe_gap + inner * u_error / (safe_gap * safe_gap)) + {straddles}"));
     let share = w.select("side < 0.0", "1.0 - end", "end");
     w.bind("share4", &format!("clamp({share}, 0.0, 1.0)"));
@@ -285,10 +290,8 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
     w.bind("count", &format!("log(n) * {third} - 1.0"));
     let offset = w.number(ABSORBANCE_OFFSET.into());
     let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
-    let (usual, growth) = (w.number(USUAL_NOISE), w.number(NOISE_GROWTH));
-    w.bind("per_n", "1.0 / n");
+    let growth = w.number(NOISE_GROWTH);
     w.bind("further", &format!("reach * {growth}"));
-    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
     for i in 2..=4 {
         w.bind(&format!("noise{i}"), &format!("noise{} * further", i - 1));
     }
@@ -306,10 +309,8 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
             _ => format!("clamp({first}, -1.0, 1.0)"),
         };
         match level {
-            0 => {
-                let deviation = by_count(w, MEAN_DEVIATION);
-                shrunk(w, &mean, &raw, "0.0", "noise1", &deviation);
-            }
+            // With the closed forms.
+            0 => {}
             1 => {
                 let deviation = by_count(w, INNER_MEAN_DEVIATION);
                 let expected = "mean0 * (1.0 - spread0) / (1.0 + spread0)";

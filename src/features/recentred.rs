@@ -171,6 +171,9 @@ pub const THIN: f64 = 0.01;
 /// `four_fragments_are_exact_where_rounding_allows`.
 pub const CLOSED_FORM_TOLERANCE: f64 = 0.02;
 
+/// Multiple of its own estimated error within which the closed form does not say which of two fragments is in front; devices' quotients are a few ULP off.
+pub const STRADDLE: f64 = 4.0;
+
 impl<R: Real, const K: usize> PixelSums<R, K> {
     /// Pass 1: adds a fragment.
     pub fn add(&mut self, seen: Seen<R>) {
@@ -207,15 +210,15 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         let (c, h) = (half * (ends[0] + ends[1]), (half * (ends[1] - ends[0])).max(R::from_f64(LEAST_HALF_RANGE)));
         let m = self.recentred(seen, others, c, h);
         let (e1, reach) = self.rounding(rounding.unit, others, c, h);
-        if let Some(t) = self.closed_form(seen, others, c, h, &m, (e1, reach)) {
+        let n = R::from_f64(f64::from(self.count));
+        let usual = rounding.usual(n);
+        if let Some(t) = self.closed_form(seen, others, c, h, &m, (e1, usual, reach)) {
             return Known::Transmittance(t);
         }
         let x = self.place(seen, c, h);
         let count = R::from_f64(f64::from(self.count));
         // log2(n)/3 − 1
         let count = count.ln() * R::from_f64(std::f64::consts::LOG2_E / 3.0) - R::ONE;
-        let n = R::from_f64(f64::from(self.count));
-        let usual = rounding.usual(n);
         Known::Features([x, count, (others + R::from_f32(ABSORBANCE_OFFSET)).ln()], describe(&m, n, e1, usual, reach))
     }
 
@@ -267,10 +270,11 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
     ///
     /// The nearest and the farthest of the pixel are known atoms at −1 and 1. With three fragments they are all the others, and their mean says how they
     /// share. With four there is one atom more, at u with mass a: (1 − x²) dμ holds it alone, so u = (m_1 − m_3)/(1 − m_2) and a = (1 − m_2)/(1 − u²).
-    fn closed_form(&self, seen: Seen<R>, others: R, c: R, h: R, m: &[R; K], (e1, reach): (R, R)) -> Option<R> {
+    fn closed_form(&self, seen: Seen<R>, others: R, c: R, h: R, m: &[R; K], (e1, usual, reach): (R, R, R)) -> Option<R> {
         let half = R::from_f64(0.5);
         if self.count == 3 {
-            return Some(transmittance(others * clamp(half * (R::ONE - m[0]), R::ZERO, R::ONE)));
+            let mean = shrunk(m[0], R::ZERO, e1 * usual, MEAN_DEVIATION.of(R::from_f64(1.0 / 3.0)));
+            return Some(transmittance(others * clamp(half * (R::ONE - mean), R::ZERO, R::ONE)));
         }
         if self.count != 4 || K < 3 {
             return None;
@@ -292,7 +296,7 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         }
         let end = half * (R::ONE - sign * m[0] - inner / gap);
         let mut error = half * (e1 + e2 / gap + inner * u_error / (gap * gap));
-        if (x - u).abs() <= u_error {
+        if (x - u).abs() <= R::from_f64(STRADDLE) * u_error {
             error += inner / (R::ONE - u * u).max(R::EPSILON);
         }
         let share = clamp(if in_front { R::ONE - end } else { end }, R::ZERO, R::ONE);

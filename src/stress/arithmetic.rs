@@ -163,7 +163,8 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Real for Device<
 
     fn exp(self) -> Self {
         let x = self.settled();
-        Self::off(libm::exp(x.into()), (x, 0.0), 3.0 + 2.0 * f64::from(x.abs()), 0.0)
+        // However coarse, no exponential is negative.
+        Self::off(libm::exp(x.into()), (x, 0.0), 3.0 + 2.0 * f64::from(x.abs()), 0.0).max(Self::ZERO)
     }
 
     fn ln(self) -> Self {

@@ -8,6 +8,7 @@ pub mod cases;
 pub mod classic;
 pub mod plot;
 pub mod random;
+pub mod rows;
 pub mod subject;
 pub mod sweep;
 

@@ -28,10 +28,14 @@ pub struct Chart<'a> {
     pub lines: &'a [Line],
 }
 
-/// Size of a chart \[pixels\].
-const SIZE: (u32, u32) = (960, 560);
+/// Size of a chart, and the part of its width that the legend takes \[pixels\].
+const SIZE: (u32, u32) = (1120, 560);
+const LEGEND: u32 = 290;
 
-/// Colours that people tell apart whatever their sight, after M. Okabe and K. Ito; beyond the eighth they come again, dashed.
+/// Mean squared errors below this are drawn as this: nobody sees them.
+const FLOOR: f64 = 1e-7;
+
+/// Colours that people tell apart whatever their sight, after M. Okabe and K. Ito; they come again after the eighth.
 const COLORS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -55,7 +59,7 @@ impl Chart<'_> {
         let (Some(low), Some(high)) = (bound(|p| p.1, f64::min), bound(|p| p.1, f64::max)) else { return Ok(None) };
         // Whole powers of ten, one at least.
         let decade = |v: f64, round: fn(f64) -> f64| libm::exp10(round(libm::log10(v)));
-        let (low, high) = (decade(low, f64::floor), decade(high, f64::ceil));
+        let (low, high) = (decade(low.max(FLOOR), f64::floor), decade(high.max(FLOOR), f64::ceil));
         let high = if high > low { high } else { 10.0 * low };
         let mut text = String::new();
         if self.log_x {
@@ -76,10 +80,11 @@ impl Chart<'_> {
     {
         let area = SVGBackend::with_string(text, SIZE).into_drawing_area();
         area.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&area)
+        let (left, right) = area.split_horizontally(SIZE.0 - LEGEND);
+        let mut chart = ChartBuilder::on(&left)
             .caption(self.title, ("sans-serif", 18))
             .margin(12)
-            .margin_right(24)
+            .margin_right(20)
             .x_label_area_size(42)
             .y_label_area_size(64)
             .build_cartesian_2d(x, y)?;
@@ -94,24 +99,37 @@ impl Chart<'_> {
             .bold_line_style(RGBColor(215, 215, 215))
             .label_style(("sans-serif", 13))
             .draw()?;
+        // A method that is run in several ways has one colour.
+        let base = |line: &Line| line.name.split(" @ ").next().unwrap_or("").to_owned();
+        let mut bases: Vec<String> = Vec::new();
         for (i, line) in self.lines.iter().enumerate() {
-            let style = ShapeStyle { color: COLORS[i % COLORS.len()].to_rgba(), filled: false, stroke_width: 2 };
-            let dashed = i >= COLORS.len();
-            let drawn = if dashed {
-                chart.draw_series(DashedLineSeries::new(line.points.iter().copied(), 7, 4, style))?
-            } else {
-                chart.draw_series(LineSeries::new(line.points.iter().copied(), style))?
+            let of = bases.iter().position(|b| *b == base(line)).unwrap_or_else(|| {
+                bases.push(base(line));
+                bases.len() - 1
+            });
+            let style = ShapeStyle { color: COLORS[of % COLORS.len()].to_rgba(), filled: false, stroke_width: 2 };
+            // Solid, dashed in another way of being run, dotted where colours come again.
+            let dash = match (self.lines[..i].iter().any(|before| base(before) == base(line)), of >= COLORS.len()) {
+                (false, false) => None,
+                (true, _) => Some((9, 5)),
+                (false, true) => Some((2, 4)),
             };
-            drawn.label(&line.name).legend(move |(x, y)| PathElement::new(vec![(x, y), (x + if dashed { 10 } else { 20 }, y)], style));
-            chart.draw_series(line.marked.iter().map(|&at| Cross::new(at, 5, style)))?;
+            let points = line.points.iter().map(|&(x, y)| (x, y.max(FLOOR)));
+            let at = 30 + 24 * i as i32;
+            let sample = [(0, at), (34, at)];
+            match dash {
+                None => {
+                    chart.draw_series(LineSeries::new(points, style))?;
+                    right.draw(&PathElement::new(sample, style))?;
+                }
+                Some((size, spacing)) => {
+                    chart.draw_series(DashedLineSeries::new(points, size, spacing, style))?;
+                    right.draw(&plotters::element::DashedPathElement::new(sample, size, spacing, style))?;
+                }
+            }
+            chart.draw_series(line.marked.iter().map(|&(x, y)| Cross::new((x, y.max(FLOOR)), 4, style)))?;
+            right.draw(&Text::new(line.name.clone(), (42, at - 7), ("sans-serif", 13)))?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(RGBColor(190, 190, 190))
-            .label_font(("sans-serif", 13))
-            .draw()?;
         area.present()?;
         Ok(())
     }

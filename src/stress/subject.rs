@@ -176,6 +176,16 @@ pub enum Weights {
 }
 
 impl Weights {
+    /// What stands behind a network's name: nothing where weights are as they are.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::F32 => "",
+            Self::F16 => " @ f16 weights",
+            Self::Bf16 => " @ bf16 weights",
+            Self::Int8 => " @ int8 weights",
+        }
+    }
+
     /// The network with rounded weights.
     ///
     /// # Errors
@@ -255,12 +265,7 @@ impl Execution {
             Storage::F16 => Some("f16"),
             Storage::Unorm16 => Some("unorm16"),
         });
-        parts.extend(match self.weights {
-            Weights::F32 => None,
-            Weights::F16 => Some("f16 weights"),
-            Weights::Bf16 => Some("bf16 weights"),
-            Weights::Int8 => Some("int8 weights"),
-        });
+        parts.extend(Some(self.weights.suffix().trim_start_matches(" @ ")).filter(|name| !name.is_empty()));
         if parts.is_empty() { String::new() } else { format!(" @ {}", parts.join(", ")) }
     }
 
