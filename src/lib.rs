@@ -22,3 +22,8 @@ pub mod pixel;
 pub mod scene;
 pub mod synth;
 pub mod train;
+
+/// The Rust in docs/integration.md, run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/integration.md")]
+pub struct Integration;
