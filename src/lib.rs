@@ -25,3 +25,8 @@ pub mod scene;
 pub mod stress;
 pub mod synth;
 pub mod train;
+
+/// The Rust in docs/integration.md, run as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/integration.md")]
+pub struct Integration;

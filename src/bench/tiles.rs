@@ -1,6 +1,6 @@
 //! What a frame's passes take on the device: drawn and blended, in compute shaders over all tiles, and with the network only in the tiles that need it.
 
-use crate::gpu::pipeline::{ColorStorage, Drawing, Pipeline};
+use crate::gpu::pipeline::{Drawing, Pipeline, Storage};
 use crate::gpu::tiles::{Skip, TileCounts, TilePasses, TileSeconds};
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::pixel::FragmentList;
@@ -65,7 +65,7 @@ pub fn frames(
 ) -> Result<Frames, GpuError> {
     let background = [1.0; 3];
     let drawing = if gpu.blends_f32() { Some(Drawing::new(gpu, list)?) } else { None };
-    let drawn = drawing.as_ref().map(|drawing| Pipeline::new(gpu, drawing, method, range, background, ColorStorage::F32)).transpose()?;
+    let drawn = drawing.as_ref().map(|drawing| Pipeline::new(gpu, drawing, method, range, background, Storage::Full)).transpose()?;
     let tiles = TilePasses::new(gpu, list, method, range, background)?;
     let ways = [Way::Drawn, Way::EveryTile, Way::TilesApart].into_iter().filter(|way| *way != Way::Drawn || drawn.is_some());
     let mut samples: Vec<FrameSamples> = ways.map(|way| FrameSamples { way, accumulate: Vec::new(), weights: Vec::new() }).collect();

@@ -9,6 +9,7 @@ use crate::evaluate::judge::by_error;
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
 use crate::evaluate::{MethodResult, Truth};
 use crate::export::Format;
+use crate::gpu::pipeline::Storage;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
@@ -55,9 +56,32 @@ pub struct Evaluate {
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]
     gpu: bool,
+    /// How the GPU stores sums between render passes.
+    #[arg(long, value_enum, requires = "gpu", default_value = "full")]
+    gpu_storage: StorageName,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum StorageName {
+    /// f32; blending needs the adapter's feature float32-blendable, and without it compute passes step in.
+    Full,
+    /// Colour as f16, moments as f32.
+    HalfColor,
+    /// f16, and the range in depth buffers; for networks.
+    Half,
+}
+
+impl From<StorageName> for Storage {
+    fn from(name: StorageName) -> Self {
+        match name {
+            StorageName::Full => Self::Full,
+            StorageName::HalfColor => Self::HalfColor,
+            StorageName::Half => Self::Half,
+        }
+    }
 }
 
 /// A method that was asked for.
@@ -124,7 +148,7 @@ impl Evaluate {
                 let mut drawn = None;
                 if let (Some(gpu), Some((image, _))) = (gpu, &judged.picture) {
                     let judged = match shader {
-                        Some(Ok(shader)) => gpu::judge(gpu, shader, &truth, context, image).map_err(|e| e.to_string()),
+                        Some(Ok(shader)) => gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), image).map_err(|e| e.to_string()),
                         Some(Err(why)) => Err(why.to_string()),
                         None => Err(format!("{} has no shader", method.name())),
                     };
@@ -151,7 +175,7 @@ impl Evaluate {
             }
             let heading = format!("{name}: {} fragments, at most {} in a pixel\n", list.len(), list.depth_complexity());
             if !ui.json() {
-                let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, &found));
+                let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, self.gpu_storage.into(), &found));
                 ui.print(&format!("{heading}{}{on_gpu}{remarks}\n", rows(&found)))?;
             }
             results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())));
@@ -255,7 +279,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
 }
 
 /// What the GPU drew, as a table under its name.
-fn gpu_rows(gpu: &Gpu, results: &[(MethodResult, Option<GpuResult>)]) -> String {
+fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[(MethodResult, Option<GpuResult>)]) -> String {
     if results.iter().all(|r| r.1.is_none()) {
         return String::new();
     }
@@ -276,7 +300,11 @@ fn gpu_rows(gpu: &Gpu, results: &[(MethodResult, Option<GpuResult>)]) -> String 
             milliseconds(r.seconds_resolve),
         ]);
     }
-    let how = if gpu.blends_f32() { "render passes" } else { "compute passes, since it cannot blend into f32 targets" };
+    let how = if gpu::is_drawn(gpu, storage) {
+        format!("render passes, storage {}", storage.name())
+    } else {
+        "compute passes, since it cannot blend into f32 targets".to_owned()
+    };
     format!("\n{}, {how}, against the images above:\n{}", gpu.name(), table(&lines))
 }
 

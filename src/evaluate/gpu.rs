@@ -1,7 +1,7 @@
 //! What the GPU makes of a method, beside the CPU's image of it and the exact one.
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
-use crate::gpu::pipeline::{ColorStorage, Drawing, Pipeline, Rendered};
+use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, Storage};
 use crate::gpu::tiles::{Skip, TilePasses};
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::oit::Context;
@@ -17,6 +17,8 @@ pub struct GpuResult {
     pub adapter: String,
     /// "render" where fragments are drawn and blended, "compute" where the adapter cannot blend into f32 targets.
     pub passes: String,
+    /// How sums were stored between render passes; compute passes keep f32.
+    pub storage: String,
     /// What 99.9 % of the pixels that hold fragments stay within: greatest difference of a channel from the CPU's image.
     pub channel_difference_999: f64,
     /// Greatest difference of a channel from the CPU's image.
@@ -67,28 +69,47 @@ pub fn within_999(values: impl IntoIterator<Item = f64>) -> f64 {
     most.checked_sub(1).map_or(0.0, |last| values[last])
 }
 
-/// The image by render passes, or where the device cannot blend into f32 targets by compute passes. Drivers compile when they first draw: the second frame
+/// The image by render passes, or where the device cannot blend as the storage needs by compute passes. Drivers compile when they first draw: the second frame
 /// is timed.
-fn render(gpu: &Gpu, method: &MethodShader, list: &FragmentList, context: Context, background: [f32; 3]) -> Result<Rendered, GpuError> {
+fn render(
+    gpu: &Gpu,
+    method: &MethodShader,
+    list: &FragmentList,
+    context: Context,
+    background: [f32; 3],
+    storage: Storage,
+) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
-    if !gpu.blends_f32() {
+    if !is_drawn(gpu, storage) {
         let passes = TilePasses::new(gpu, list, method, range, background)?;
         passes.run(gpu, Skip::Tiles)?;
         return passes.render(gpu);
     }
     let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(gpu, &drawing, method, range, background, ColorStorage::F32)?;
+    let pipeline = Pipeline::new(gpu, &drawing, method, range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
+}
+
+/// Whether render passes make the image.
+pub fn is_drawn(gpu: &Gpu, storage: Storage) -> bool {
+    gpu.blends_f32() || !storage.blends_f32()
 }
 
 /// Draws a method on the GPU and compares its image with the CPU's and the exact one.
 ///
 /// # Errors
 /// [`EvaluateError::Gpu`], and why the list makes no image.
-pub fn judge(gpu: &Gpu, method: &MethodShader, truth: &Truth<'_>, context: Context, cpu: &Image) -> Result<GpuJudged, EvaluateError> {
+pub fn judge(
+    gpu: &Gpu,
+    method: &MethodShader,
+    truth: &Truth<'_>,
+    context: Context,
+    storage: Storage,
+    cpu: &Image,
+) -> Result<GpuJudged, EvaluateError> {
     let list = truth.list();
-    let rendered = render(gpu, method, list, context, truth.background().map(|c| c as f32))?;
+    let rendered = render(gpu, method, list, context, truth.background().map(|c| c as f32), storage)?;
     let image = Image::new(rendered.width, rendered.height, rendered.pixels.iter().map(|p| p.map(f64::from)).collect())?;
     let differences = channel_differences(&image, cpu)?;
     let map = flip(cpu, &image)?;
@@ -97,7 +118,8 @@ pub fn judge(gpu: &Gpu, method: &MethodShader, truth: &Truth<'_>, context: Conte
     let result = GpuResult {
         method: method.name.clone(),
         adapter: gpu.name(),
-        passes: if gpu.blends_f32() { "render" } else { "compute" }.to_owned(),
+        passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
+        storage: if is_drawn(gpu, storage) { storage } else { Storage::Full }.name().to_owned(),
         channel_difference_999: within_999((0..list.pixels()).filter(|&p| !list.range(p).is_empty()).map(|p| differences[p])),
         channel_difference_worst: differences.iter().fold(0.0, |m, d| d.max(m)),
         flip_mean_to_cpu: map.mean(),
@@ -148,11 +170,11 @@ mod tests {
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
         let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
         let cpu = truth.judge(&Neural::new(mlp), Context::default()).unwrap().picture.unwrap().0;
-        let found = judge(gpu, &method, &truth, Context::default(), &cpu).unwrap().result;
+        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, &cpu).unwrap().result;
         assert!(found.channel_difference_worst <= 1e-5 && found.flip_mean_to_cpu <= 1e-4 && found.image_mse <= 1e-9, "{found:?}");
         assert_eq!((found.image_nonfinite, found.adapter), (0, gpu.name()));
         let other = Image::new(40, 30, cpu.pixels().iter().map(|p| [p[1], p[2], p[0]]).collect()).unwrap();
-        let found = judge(gpu, &method, &truth, Context::default(), &other).unwrap().result;
+        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, &other).unwrap().result;
         assert!(found.channel_difference_999 > 0.1 && found.flip_mean_to_cpu > 0.01, "{found:?}");
     }
 }

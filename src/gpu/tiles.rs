@@ -116,7 +116,7 @@ impl TilePasses {
         let dispatches = gpu.zeros("dispatches", 24)?;
         let words = [range[0].to_bits(), range[1].to_bits(), width, height];
         let words = [words, [background[0].to_bits(), background[1].to_bits(), background[2].to_bits(), 0]];
-        let frame = gpu.uniform("frame", words.as_flattened());
+        let frame = gpu.uniform("frame", [words, [[0; 4]; 2]].as_flattened().as_flattened());
 
         let each = |f: &dyn Fn(usize) -> String, between: &str| (0..k).map(f).collect::<Vec<_>>().join(between);
         let module = method.module();

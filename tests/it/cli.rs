@@ -412,6 +412,39 @@ fn evaluate_compares_methods() {
     assert!(!Path::new(&at.path("x")).exists());
 }
 
+/// The GPU draws what has a shader, and what has none is named; without a GPU there is an error, and no result.
+#[test]
+fn evaluate_draws_on_the_gpu() {
+    let at = Workplace::new();
+    let small = concat!(env!("CARGO_MANIFEST_DIR"), "/models/small.json");
+    let evaluate = |out: &str, more: &[&str]| {
+        let plain = ["evaluate", "--fragments", "spheres", "--size", "40x30", "--methods", "abuffer,weighted-average", "--model", small, "--out"];
+        nmt(&[&plain[..], &[&at.path(out), "--gpu"], more].concat())
+    };
+    if let Err(why) = nmt::gpu::Gpu::shared() {
+        let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
+        assert!(!required.split(',').any(|tool| tool.trim() == "gpu"), "a GPU is required: {why}");
+        println!("skipped: {why}");
+        evaluate("e", &[]).code(2).stderr(contains("no GPU adapter"));
+        assert!(!Path::new(&at.path("e")).exists());
+        return;
+    }
+    evaluate("e", &[]).success().stdout(contains("against the images above").and(contains("abuffer has no shader")));
+    for file in ["neural-small.gpu.png", "neural-small.gpu.flip.png", "weighted-average.gpu.png"] {
+        assert!(Path::new(&at.path("e/spheres")).join(file).is_file(), "{file}");
+    }
+    assert!(!Path::new(&at.path("e/spheres/abuffer.gpu.png")).exists());
+    for storage in ["full", "half-color", "half"] {
+        let report = json(evaluate("e", &["--force", "--json", "--gpu-storage", storage]));
+        let result = report["results"].as_array().unwrap().iter().find(|r| r["method"] == "neural:small").unwrap();
+        let gpu = &result["gpu"];
+        let within = gpu["channel_difference_999"].as_f64().unwrap();
+        assert!(within <= if storage == "full" { 1e-3 } else { 0.05 }, "{storage}: {within}");
+        assert!(gpu["seconds_weights"].as_f64().unwrap() > 0.0 && !gpu["adapter"].as_str().unwrap().is_empty() && gpu["image_nonfinite"] == 0);
+    }
+    nmt(&["evaluate", "--fragments", "spheres", "--out", &at.path("x"), "--gpu-storage", "half"]).code(2).stderr(contains("--gpu"));
+}
+
 /// Without colours and size there are errors of T, and a word about the missing pictures.
 #[test]
 fn evaluate_does_without_pictures() {

@@ -1,6 +1,8 @@
-//! Integration tests, in one binary: the command line as a user types it, the order of the layers, and an independent reader.
+//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the documentation, and an
+//! independent reader.
 
 mod cli;
+mod docs;
 mod fuzz;
 mod layers;
 mod python;

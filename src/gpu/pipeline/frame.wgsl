@@ -6,6 +6,8 @@ struct OitFrame {
     size: vec2<u32>,
     // Linear colour behind everything.
     background: vec4<f32>,
+    // A power of two that takes every v below 1, and its inverse; for depth buffers.
+    scale: vec2<f32>,
 }
 
 @group(0) @binding(0) var<uniform> oit_frame: OitFrame;
