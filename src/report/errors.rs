@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn curves_have_a_point_a_bin_and_all_numbers_beside_them() {
         let html = curves(&sample()).unwrap();
-        assert_eq!(html.matches("<svg").count(), 3);
+        assert_eq!(html.matches("<svg class=\"chart\"").count(), 3);
         for part in ["b&lt;, 5–8: T-MSE 2.50e-3, 9 fragments", "0.1–0.2", "≤1e-", "All numbers", "2 of 2 methods"] {
             assert!(html.contains(part), "{part}\n{html}");
         }

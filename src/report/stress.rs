@@ -163,6 +163,6 @@ mod tests {
             |method: &str, x: f64, mse: f64| json!({ "kind": "sweep", "point": { "method": method, "sweep": "half_range", "x": x, "mse": mse } });
         let rows = json!([point("a", 0.5, 1e-4), point("a", 1e-3, 1e-6), point("b", 0.5, 1e-5), { "sweep": "half_range", "x": "wide" }]);
         let html = section(&found("results.json", json!({ "command": "stress", "results": rows }))).unwrap();
-        assert!(html.matches("<svg").count() == 1 && html.contains("T-MSE against half range") && html.contains("2 of 2 methods"));
+        assert!(html.matches("<svg class=\"chart\"").count() == 1 && html.contains("T-MSE against half range") && html.contains("2 of 2 methods"));
     }
 }

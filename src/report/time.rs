@@ -215,9 +215,9 @@ mod tests {
         let found = found("b/results.json", json!({ "command": "bench", "results": rows }));
         let (html, benchmarked) = section(&found, &[]);
         let html = html.unwrap();
-        assert!(benchmarked && html.matches("<svg").count() == 2, "{html}");
+        assert!(benchmarked && html.matches("<svg class=\"chart\"").count() == 2, "{html}");
         assert!(html.contains("hair, gpu &lt;0&gt;: time of pass 2 against image MSE"));
-        assert!(html.contains("on the Pareto front: neural:small.") && html.contains("neural:small: 1.00 ms, image MSE 1.00e-5"));
+        assert!(html.contains("on the Pareto front: neural:small.") && html.contains("neural:small: 1 ms, image MSE 1.00e-5"));
         // 1 ms for 1000 fragments are 1000 ns each.
         assert!(html.contains(">1,000<"));
     }

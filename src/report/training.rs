@@ -148,7 +148,7 @@ mod tests {
         {
             assert!(html.contains(part), "{part}\n{html}");
         }
-        assert_eq!(html.matches("<svg").count(), 2, "NaN is left out, the rest drawn");
+        assert_eq!(html.matches("<svg class=\"chart\"").count(), 2, "NaN is left out, the rest drawn");
         assert_eq!(problems.iter().map(|p| p.0.as_str()).collect::<Vec<_>>(), ["other.losses.csv", "wrong.losses.csv"]);
         assert!(section(&Found::default(), &mut problems).is_none());
     }

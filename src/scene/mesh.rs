@@ -75,14 +75,23 @@ fn obj(path: &Path, material_needed: bool) -> Result<Vec<Part>, SceneError> {
     let mut vertex = 0;
     for (line, content) in text.lines().enumerate() {
         let mut words = content.split_ascii_whitespace();
-        if words.next() == Some("v") {
-            vertex += 1;
-            for word in words {
-                if !word.parse::<f32>().is_ok_and(f32::is_finite) {
-                    let place = format!("vertex {vertex} (line {})", line + 1);
-                    return Err(SceneError::file_content(path, &place, format!("coordinate '{word}'; every coordinate must be a finite number")));
+        match words.next() {
+            Some("v") => {
+                vertex += 1;
+                for word in words {
+                    if !word.parse::<f32>().is_ok_and(f32::is_finite) {
+                        let place = format!("vertex {vertex} (line {})", line + 1);
+                        return Err(SceneError::file_content(path, &place, format!("coordinate '{word}'; every coordinate must be a finite number")));
+                    }
                 }
             }
+            // The library multiplies indices before it looks whether they are in bounds.
+            Some("f" | "l" | "p") => {
+                if let Some(index) = words.flat_map(|w| w.split('/')).find(|i| i.parse::<i64>().is_ok_and(|i| i32::try_from(i).is_err())) {
+                    return Err(SceneError::file_content(path, &format!("line {}", line + 1), format!("index {index} is out of bounds")));
+                }
+            }
+            _ => {}
         }
     }
     let folder = path.parent().unwrap_or(Path::new("."));

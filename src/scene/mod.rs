@@ -216,6 +216,7 @@ mod tests {
             ("b.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "out of bounds"),
             ("c.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
             ("d.gltf", gltf(r#"[{"children":[1]},{"children":[0]}]"#, ""), "cycle"),
+            ("j.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//6148914691236517206 2//1 3//1\n".to_owned(), "line 5: index 6148914691236517206"),
             ("i.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
             (
                 "h.gltf",

@@ -160,6 +160,26 @@ fn change() -> impl Strategy<Value = Change> {
     ]
 }
 
+/// Changes that leave a text's syntax as it is, more often than not.
+fn number_change() -> impl Strategy<Value = Change> {
+    let at = any::<Index>;
+    let values = prop_oneof![
+        -1e3..1e3f64,
+        0.0..1.0f64,
+        (0..300u32).prop_map(f64::from),
+        Just(0.0),
+        Just(-1.0),
+        Just(1e38),
+        Just(1e-38),
+        Just(1e9),
+        Just(1e300)
+    ];
+    prop_oneof![
+        1 => (at(), 0..TOKENS.len()).prop_map(|(i, t)| Change::Number(i, t)),
+        4 => (at(), values).prop_map(|(i, x)| Change::Digits(i, x)),
+    ]
+}
+
 /// Places of runs of digits and what belongs to them.
 fn numbers(bytes: &[u8]) -> Vec<std::ops::Range<usize>> {
     let part = |b: u8| b.is_ascii_digit() || b == b'.' || b == b'-';
@@ -346,7 +366,8 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
         changes.iter().for_each(|c| c.apply(&mut bytes, &parser.seeds));
         (name.clone(), bytes)
     };
-    let strategy = (any::<Index>(), prop::collection::vec(change(), 1..5));
+    let changes = prop_oneof![prop::collection::vec(change(), 1..5), prop::collection::vec(number_change(), 1..4)];
+    let strategy = (any::<Index>(), changes);
     let began = Instant::now();
     for batch in 0u64.. {
         let cases = match budget {
