@@ -2,8 +2,7 @@
 
 use super::network::MOST_ROWS;
 use super::{BenchError, Plan, Samples, Subject, measure};
-use crate::dataset::DatasetConfig;
-use crate::dataset::build::RowStream;
+use crate::dataset::{DatasetConfig, RowStream};
 use crate::synth::{Purpose, SynthConfig};
 
 /// What to generate.

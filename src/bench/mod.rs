@@ -1,12 +1,15 @@
-//! How fast: training, generation and inference, measured and never printed.
+//! How fast: training, generation, inference and transparency methods, measured and never printed.
 //!
 //! What is compared is measured by turns: every repetition runs each subject once, so that a machine that slows down slows all of them down, and ratios hold.
 
 pub mod generate;
 pub mod infer;
+pub mod methods;
 pub mod network;
 pub mod peak;
+pub mod scatter;
 pub mod summary;
+pub mod tiles;
 pub mod train;
 
 pub use network::Network;

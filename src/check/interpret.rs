@@ -1,7 +1,10 @@
-//! Runs shader functions on the CPU, from naga's intermediate representation, in f32: what the source says is computed, not only parsed.
+//! Runs shader functions on the CPU, from naga's intermediate representation: what the source says is computed, not only parsed.
 //!
-//! Many rows run side by side in lanes. The subset of the language that exports use is supported; anything else is an error that names it.
+//! Arithmetic is f32; where the source says f16, every result is rounded to it. Many rows run side by side in lanes. The subset of the language that exports use is supported; anything else is an error that names it.
 
+use crate::numeric::quantise::round_f16_of_f32;
+use naga::front::Typifier;
+use naga::proc::ResolveContext;
 use naga::{BinaryOperator, Expression, Function, Handle, Literal, MathFunction, Module, Statement, TypeInner, UnaryOperator};
 use std::sync::Arc;
 
@@ -149,14 +152,15 @@ impl<const L: usize> Value<L> {
         }
     }
 
-    /// Product as shading languages mean it: a matrix times a vector is the sum of its columns by the vector's components, in order.
-    fn multiply(&self, other: &Self) -> Result<Self> {
-        let times = |a: f32, b: f32| a * b;
+    /// Product as shading languages mean it: a matrix times a vector is the sum of its columns by the vector's components, in order. Every number on the way
+    /// is rounded.
+    fn multiply(&self, other: &Self, round: &impl Fn(f32) -> f32) -> Result<Self> {
+        let times = |a: f32, b: f32| round(a * b);
         match (self.columns(), other) {
             (Some(columns), Self::Composite(x)) if other.columns().is_none() && x.len() == columns.len() => {
                 let mut sum = columns[0].zip(&x[0], &times)?;
                 for (column, x) in columns.iter().zip(x.iter()).skip(1) {
-                    sum = sum.zip(&column.zip(x, &times)?, &|a, b| a + b)?;
+                    sum = sum.zip(&column.zip(x, &times)?, &|a, b| round(a + b))?;
                 }
                 Ok(sum)
             }
@@ -165,12 +169,12 @@ impl<const L: usize> Value<L> {
         }
     }
 
-    fn dot(&self, other: &Self) -> Result<Self> {
-        match self.zip(other, &|a, b| a * b)? {
+    fn dot(&self, other: &Self, round: &impl Fn(f32) -> f32) -> Result<Self> {
+        match self.zip(other, &|a, b| round(a * b))? {
             Self::Composite(terms) => {
                 let mut sum = terms[0].clone();
                 for term in &terms[1..] {
-                    sum = sum.zip(term, &|a, b| a + b)?;
+                    sum = sum.zip(term, &|a, b| round(a + b))?;
                 }
                 Ok(sum)
             }
@@ -193,13 +197,27 @@ pub struct Interpreter<'a> {
     module: &'a Module,
     /// Values of its constants, in the order of their handles.
     constants: Vec<Result<Value<1>>>,
+    /// For every function, which of its expressions are f16.
+    halves: Vec<Vec<bool>>,
+}
+
+/// Which expressions of a function are f16.
+fn halves(module: &Module, function: &Function) -> Vec<bool> {
+    let context = ResolveContext::with_locals(module, &function.local_variables, &function.arguments);
+    let mut types = Typifier::new();
+    let half = |(handle, _)| {
+        let known = types.grow(handle, &function.expressions, &context).is_ok();
+        known && types.get(handle, &module.types).scalar() == Some(naga::Scalar::F16)
+    };
+    function.expressions.iter().map(half).collect()
 }
 
 impl<'a> Interpreter<'a> {
     /// An interpreter of a validated module.
     pub fn new(module: &'a Module) -> Self {
         let constants = module.constants.iter().map(|(_, constant)| global(module, constant.init)).collect();
-        Self { module, constants }
+        let halves = module.functions.iter().map(|(_, function)| halves(module, function)).collect();
+        Self { module, constants, halves }
     }
 
     /// A constant that a function names, as it is in every lane.
@@ -222,14 +240,37 @@ impl<'a> Interpreter<'a> {
         self.module.constants.iter().filter_map(|(_, c)| c.name.as_deref())
     }
 
+    /// The whole name of the function that has this one, or this one and a number, as translators append them.
+    ///
+    /// # Errors
+    /// [`InterpretError::NoFunction`].
+    pub fn function_like(&self, name: &str) -> Result<&'a str> {
+        let like = |whole: &str| {
+            let rest = whole.strip_prefix(name)?;
+            (rest.is_empty() || rest.strip_prefix('_')?.chars().all(|c| c.is_ascii_digit())).then_some(())
+        };
+        let mut names = self.module.functions.iter().filter_map(|(_, f)| f.name.as_deref());
+        names.find(|whole| like(whole).is_some()).ok_or_else(|| InterpretError::NoFunction(name.to_owned()))
+    }
+
     /// Calls a function on a row of arguments a lane.
     ///
     /// # Errors
     /// [`InterpretError`].
     pub fn call<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>) -> Result<Value<L>> {
         let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
-        let (_, function) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
-        self.run(function, arguments)
+        let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
+        self.run(function, arguments)?.0.ok_or(InterpretError::NoValue)
+    }
+
+    /// Calls a function and returns what one of its pointer arguments points to in the end.
+    ///
+    /// # Errors
+    /// [`InterpretError`].
+    pub fn call_out<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>, at: usize) -> Result<Value<L>> {
+        let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
+        let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
+        self.run(function, arguments)?.1.into_iter().nth(at).ok_or(InterpretError::Operands("a call"))
     }
 
     /// Calls a function of one array argument on rows of numbers; the result is a number a row.
@@ -259,23 +300,29 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    fn run<const L: usize>(&self, function: &'a Function, arguments: Vec<Value<L>>) -> Result<Value<L>> {
+    /// Runs a function; the result is its value, and what its pointer arguments point to in the end, at their places among the arguments.
+    fn run<const L: usize>(&self, handle: Handle<Function>, arguments: Vec<Value<L>>) -> Result<(Option<Value<L>>, Vec<Value<L>>)> {
+        let function = &self.module.functions[handle];
         if arguments.len() != function.arguments.len() {
             return Err(InterpretError::Operands("a call"));
         }
+        let halves = &self.halves[handle.index()];
         let mut locals = Vec::new();
         for (_, local) in function.local_variables.iter() {
-            let mut frame = Frame { interpreter: self, function, arguments: &[], locals: Vec::new(), values: Vec::new() };
+            let mut frame = Frame { interpreter: self, function, halves, arguments: &[], locals: Vec::new(), values: Vec::new() };
             locals.push(match local.init {
                 Some(init) => frame.value(init)?,
                 None => zero(self.module, local.ty)?,
             });
         }
-        let mut frame = Frame { interpreter: self, function, arguments: &arguments, locals, values: vec![None; function.expressions.len()] };
-        match frame.block(&function.body)? {
-            Flow::Return(Some(value)) => Ok(value),
-            _ => Err(InterpretError::NoValue),
-        }
+        // What a pointer points to is a variable of the call, copied in and out.
+        locals.extend(arguments.iter().cloned());
+        let mut frame = Frame { interpreter: self, function, halves, arguments: &arguments, locals, values: vec![None; function.expressions.len()] };
+        let value = match frame.block(&function.body)? {
+            Flow::Return(value) => value,
+            Flow::Next => None,
+        };
+        Ok((value, frame.locals.split_off(function.local_variables.len())))
     }
 }
 
@@ -306,6 +353,7 @@ fn zero<const L: usize>(module: &Module, ty: Handle<naga::Type>) -> Result<Value
 fn literal_value<const L: usize>(literal: Literal) -> Result<Value<L>> {
     match literal {
         Literal::F32(x) => Ok(Value::Uniform(x)),
+        Literal::F16(x) => Ok(Value::Uniform(x.to_f32())),
         Literal::U32(x) => Ok(Value::Index(x)),
         Literal::I32(x) => u32::try_from(x).map(Value::Index).map_err(|_| InterpretError::Operands("an index")),
         Literal::Bool(x) => Ok(Value::Bools(Arc::new([x; L]))),
@@ -326,6 +374,8 @@ enum Flow<const L: usize> {
 struct Frame<'a, 'b, const L: usize> {
     interpreter: &'b Interpreter<'a>,
     function: &'a Function,
+    /// Which expressions are f16.
+    halves: &'b [bool],
     arguments: &'b [Value<L>],
     locals: Vec<Value<L>>,
     values: Vec<Option<Value<L>>>,
@@ -365,10 +415,20 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     store(&mut self.locals[local], &path, value)?;
                 }
                 Statement::Call { function, arguments, result } => {
-                    let arguments = arguments.iter().map(|&a| self.value(a)).collect::<Result<Vec<_>>>()?;
-                    let value = self.interpreter.run(&self.interpreter.module.functions[*function], arguments)?;
+                    let places: Vec<_> = arguments.iter().map(|&a| self.place(a)).collect();
+                    let values = arguments.iter().zip(&places).map(|(&a, place)| match place {
+                        Some(place) => self.load(place),
+                        None => self.value(a),
+                    });
+                    let values = values.collect::<Result<Vec<_>>>()?;
+                    let (value, pointed) = self.interpreter.run(*function, values)?;
+                    for (place, value) in places.into_iter().zip(pointed) {
+                        if let Some((local, path)) = place {
+                            store(&mut self.locals[local], &path, value)?;
+                        }
+                    }
                     if let Some(result) = result {
-                        self.values[result.index()] = Some(value);
+                        self.values[result.index()] = Some(value.ok_or(InterpretError::NoValue)?);
                     }
                 }
                 other => return unsupported(other),
@@ -381,6 +441,11 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
     fn place(&self, handle: Handle<Expression>) -> Option<(usize, Vec<usize>)> {
         match &self.function.expressions[handle] {
             Expression::LocalVariable(local) => Some((local.index(), Vec::new())),
+            Expression::FunctionArgument(index) => {
+                let ty = self.function.arguments.get(*index as usize)?.ty;
+                let pointer = matches!(self.interpreter.module.types[ty].inner, TypeInner::Pointer { .. });
+                pointer.then(|| (self.function.local_variables.len() + *index as usize, Vec::new()))
+            }
             Expression::AccessIndex { base, index } => self.place(*base).map(|(local, mut path)| {
                 path.push(*index as usize);
                 (local, path)
@@ -394,11 +459,16 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
         }
     }
 
+    fn load(&self, (local, path): &(usize, Vec<usize>)) -> Result<Value<L>> {
+        path.iter().try_fold(self.locals[*local].clone(), |value, &index| value.item(index))
+    }
+
     /// An index that is the same in every lane.
     fn index(&self, handle: Handle<Expression>) -> Result<usize> {
         match &self.function.expressions[handle] {
             Expression::Literal(Literal::U32(i)) => Ok(*i as usize),
             Expression::Literal(Literal::I32(i)) => usize::try_from(*i).map_err(|_| InterpretError::Operands("an index")),
+            Expression::As { expr, kind: naga::ScalarKind::Sint | naga::ScalarKind::Uint, .. } => self.index(*expr),
             other => unsupported(other),
         }
     }
@@ -440,6 +510,18 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
     }
 
     fn evaluate(&mut self, handle: Handle<Expression>) -> Result<Value<L>> {
+        let half = self.halves.get(handle.index()).copied().unwrap_or(false);
+        match &self.function.expressions[handle] {
+            // Results of one operation are rounded once; conversions to f16 too.
+            Expression::Binary { .. } | Expression::Math { .. } | Expression::As { .. } if half => {
+                self.evaluate_with(handle, &round_f16_of_f32)?.map(&round_f16_of_f32)
+            }
+            _ => self.evaluate_with(handle, &|x| x),
+        }
+    }
+
+    /// `round` is applied within operations that are sums of products.
+    fn evaluate_with(&mut self, handle: Handle<Expression>, round: &impl Fn(f32) -> f32) -> Result<Value<L>> {
         match &self.function.expressions[handle] {
             Expression::Literal(literal) => literal_value(*literal),
             Expression::Constant(constant) => self.interpreter.constant_value(*constant),
@@ -450,8 +532,8 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             Expression::AccessIndex { base, index } => self.item(*base, *index as usize),
             Expression::Access { base, index } => self.item(*base, self.index(*index)?),
             Expression::Load { pointer } => {
-                let (local, path) = self.place(*pointer).ok_or(InterpretError::Operands("a load"))?;
-                path.iter().try_fold(self.locals[local].clone(), |value, &index| value.item(index))
+                let place = self.place(*pointer).ok_or(InterpretError::Operands("a load"))?;
+                self.load(&place)
             }
             Expression::Swizzle { size, vector, pattern } => {
                 let vector = self.value(*vector)?;
@@ -463,7 +545,7 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                 match op {
                     BinaryOperator::Add => a.zip(&b, &|a, b| a + b),
                     BinaryOperator::Subtract => a.zip(&b, &|a, b| a - b),
-                    BinaryOperator::Multiply => a.multiply(&b),
+                    BinaryOperator::Multiply => a.multiply(&b, round),
                     BinaryOperator::Divide => a.zip(&b, &|a, b| a / b),
                     BinaryOperator::Less => a.compare(&b, |a, b| a < b),
                     BinaryOperator::LessEqual => a.compare(&b, |a, b| a <= b),
@@ -474,6 +556,7 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     other => unsupported(other),
                 }
             }
+            Expression::As { expr, kind: naga::ScalarKind::Float, convert: Some(2 | 4) } => self.value(*expr),
             Expression::Select { condition, accept, reject } => Value::select(&self.value(*condition)?, &self.value(*accept)?, &self.value(*reject)?),
             Expression::Math { fun, arg, arg1, arg2, .. } => {
                 let a = self.value(*arg)?;
@@ -486,7 +569,7 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     (MathFunction::Sqrt, None, None) => a.map(&f32::sqrt),
                     (MathFunction::Max, Some(b), None) => a.zip(&b, &f32::max),
                     (MathFunction::Min, Some(b), None) => a.zip(&b, &f32::min),
-                    (MathFunction::Dot, Some(b), None) => a.dot(&b),
+                    (MathFunction::Dot, Some(b), None) => a.dot(&b, round),
                     (MathFunction::Clamp, Some(b), Some(c)) => a.zip(&b, &f32::max)?.zip(&c, &f32::min),
                     (other, ..) => unsupported(other),
                 }
@@ -544,6 +627,31 @@ mod tests {
         assert_eq!(call(source, &[2.0]), Ok(10.5));
         assert_eq!(call(source, &[0.5]), Ok(2.5));
         assert_eq!(call(source, &[-1.0]), Ok(1.5));
+    }
+
+    /// Every f16 result is rounded, within sums of products too, and what is f32 is not.
+    #[test]
+    fn half_precision() {
+        let half = |body: &str, x: f32| call(&format!("enable f16; fn f(x: f32) -> f32 {{ {body} }}"), &[x]);
+        // The spacing of halves is 2 from 2048 on, 1 below.
+        assert_eq!(half("return f32(f16(x));", 2049.0), Ok(2048.0));
+        assert_eq!(half("return f32(f16(x) + 1.0h) + 1.0;", 2048.0), Ok(2049.0));
+        assert_eq!(half("return f32(dot(vec3<f16>(f16(x), 1.0h, 1.0h), vec3<f16>(1.0h)));", 2048.0), Ok(2048.0));
+        assert_eq!(half("return dot(vec3<f32>(x, 1.0, 1.0), vec3<f32>(1.0));", 2048.0), Ok(2050.0));
+        let product = "let m = mat2x2<f16>(vec2<f16>(1.0h, 2.0h), vec2<f16>(1.0h, 1.0h)); return f32((m * vec2<f16>(f16(x), 1.0h)).x);";
+        assert_eq!(half(product, 2048.0), Ok(2048.0));
+        assert_eq!(half("return f32(max(f16(x) * 0.1h, 0.0h));", 1.0), Ok(0.099975586));
+    }
+
+    /// What a pointer points to comes back from a call.
+    #[test]
+    fn pointers_are_copied_in_and_out() {
+        let source = "fn g(x: f32, y: ptr<function, array<f32, 2>>) { (*y)[1] = x + (*y)[0]; }
+            fn f(x: f32) -> f32 { var a = array<f32, 2>(10.0, 0.0); g(x, &a); return a[1]; }";
+        assert_eq!(call(source, &[2.0]), Ok(12.0));
+        let module = module("fn f_0() -> f32 { return 1.0; } fn ff() -> f32 { return 2.0; }");
+        assert_eq!(Interpreter::new(&module).function_like("f"), Ok("f_0"));
+        assert!(Interpreter::new(&module).function_like("g").is_err());
     }
 
     /// Rows that take different branches still get each its own answer.

@@ -45,6 +45,14 @@ impl RowKind {
 /// # Errors
 /// In words, where the provenance holds a configuration that cannot be used.
 pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
+    Ok(CheckRows { kind: RowKind::InDistribution, features: sampled(mlp, count, SEED)? })
+}
+
+/// Features of `count` rows as [`in_distribution`] has them, of the random pixels of a seed; those of the check have another seed than a caller may choose.
+///
+/// # Errors
+/// As [`in_distribution`].
+pub fn sampled(mlp: &Mlp, count: usize, seed: u64) -> Result<Vec<f32>, String> {
     let synth = match mlp.provenance.config.as_ref().and_then(|c| c.get("synth")) {
         Some(synth) => serde_json::from_value(synth.clone()).map_err(|e| format!("provenance.config.synth: {e}"))?,
         None if mlp.feature_set().moment_depth() == MomentDepthKind::Log => SynthConfig::wide(),
@@ -53,7 +61,7 @@ pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
     let camera = synth.camera;
     // Moment depth of random pixels is that of their camera, as it was in training.
     let depth_range = (mlp.feature_set().moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
-    let source = Synth::new(synth, SEED).map_err(|e| format!("provenance.config: {e}"))?;
+    let source = Synth::new(synth, seed).map_err(|e| format!("provenance.config: {e}"))?;
     // Some fragments need no network, and give no row.
     let mut fragments = count as u64;
     let mut features = loop {
@@ -69,7 +77,7 @@ pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
         fragments *= 2;
     };
     features.truncate(count * mlp.feature_set().width());
-    Ok(CheckRows { kind: RowKind::InDistribution, features })
+    Ok(features)
 }
 
 /// `count` rows that no renderer should ever feed, and some will.

@@ -2,28 +2,34 @@
 
 use super::interpret::Interpreter;
 use crate::export::Format;
+use crate::export::recentred::ROUNDING;
+use crate::export::shader::{Form, Kind, Language, Precision};
 use crate::model::Mlp;
+use crate::numeric::quantise::round_f16_of_f32;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Expression, Module};
 use std::io::Write;
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
 
-/// Parses and validates a shader export.
+/// Parses and validates a shader export that naga reads. Nothing but f16, where the format says so, may be asked of a device.
 ///
 /// # Errors
 /// The compiler's own words, with the place.
 pub fn parse(format: Format, source: &str) -> Result<Module, String> {
-    let module = match format {
-        Format::Wgsl | Format::WgslPacked => naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?,
-        _ => {
-            let whole = complete_glsl(source);
-            naga::front::glsl::Frontend::default()
-                .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
-                .map_err(|e| e.emit_to_string(&whole))?
-        }
+    let Some(Kind { language: language @ (Language::Wgsl | Language::Glsl), precision, .. }) = format.kind() else {
+        return Err(format!("naga does not read {}", format.name()));
     };
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())
-        .validate(&module)
-        .map_err(|e| format!("naga does not validate it: {}", e.into_inner()))?;
+    let module = if language == Language::Wgsl {
+        naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?
+    } else {
+        let whole = complete_glsl(source);
+        naga::front::glsl::Frontend::default()
+            .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
+            .map_err(|e| e.emit_to_string(&whole))?
+    };
+    let capabilities = if precision == Precision::F16 { Capabilities::SHADER_FLOAT16 } else { Capabilities::empty() };
+    Validator::new(ValidationFlags::all(), capabilities).validate(&module).map_err(|e| format!("naga does not validate it: {}", e.into_inner()))?;
     Ok(module)
 }
 
@@ -32,20 +38,55 @@ fn complete_glsl(include: &str) -> String {
     format!("#version 450\n{include}\nvoid main() {{}}\n")
 }
 
-/// Reads every weight and bias back and compares its bits with the network's, and that nothing else than 0 stands beside them.
+/// Names of the constants of a source and their numbers, in order.
+pub type Constants = Vec<(String, Vec<f32>)>;
+
+/// What the names of all constants that hold weights begin with.
+const PREFIX: &str = "NMT_";
+
+/// Constants that hold weights.
+///
+/// # Errors
+/// In words, where one is not made of literals.
+pub fn constants(module: &Module) -> Result<Constants, String> {
+    let interpreter = Interpreter::new(module);
+    let names = interpreter.constant_names().filter(|name| name.starts_with(PREFIX));
+    names.map(|name| Ok((name.to_owned(), interpreter.constant(name).map_err(|e| e.to_string())?))).collect()
+}
+
+/// The numbers in a piece of source, in order; words are names of types or functions.
+///
+/// # Errors
+/// In words, where something begins like a number and is none.
+pub(super) fn literals(text: &str) -> Result<Vec<f32>, String> {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || "_.+-".contains(c);
+    // A sign that stands alone, or before a name, is none of a number.
+    let words = text.split(|c: char| !is_word(c)).filter(|w| w.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()));
+    let read = |w: &str| {
+        let value: f32 = w.trim_end_matches(['f', 'h']).parse().map_err(|_| format!("'{w}' is not a number"))?;
+        Ok(if w.ends_with('h') { round_f16_of_f32(value) } else { value })
+    };
+    words.map(read).collect()
+}
+
+/// Compares the bits of every weight and bias with the network's, and that nothing else than 0 stands beside them.
 ///
 /// # Errors
 /// Names the constant and the place of the first difference.
-pub fn weights(format: Format, module: &Module, mlp: &Mlp) -> Result<(), String> {
-    let interpreter = Interpreter::new(module);
-    let packed = matches!(format, Format::WgslPacked | Format::GlslPacked);
+pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), String> {
+    let packed = kind.form == Form::Packed;
+    let numbers = |name: &str| {
+        let found = constants.iter().find(|(n, _)| n == name);
+        found.map(|(_, numbers)| numbers.as_slice()).ok_or_else(|| format!("there is no constant '{name}'"))
+    };
     let mut expected_names = Vec::new();
     let last = mlp.layers().len() - 1;
     for (index, dense) in mlp.layers().iter().enumerate() {
         let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
-        let weights = interpreter.constant(&weights_name).map_err(|e| e.to_string())?;
+        let kept = |x: f32| if kind.precision == Precision::F16 && index < last { round_f16_of_f32(x) } else { x };
+        let weights = numbers(&weights_name)?;
         let folded = packed && dense.inputs() % 4 != 0;
-        let biases = if folded { Vec::new() } else { interpreter.constant(&biases_name).map_err(|e| e.to_string())? };
+        let biases = if folded { &[] } else { numbers(&biases_name)? };
         // Where input i's weight to output o stands, and bias o.
         let groups = dense.inputs().div_ceil(4);
         let weight_at = |i: usize, o: usize| match packed {
@@ -55,22 +96,22 @@ pub fn weights(format: Format, module: &Module, mlp: &Mlp) -> Result<(), String>
         };
         let mut met = vec![false; weights.len()];
         let mut compare = |name: &str, values: &[f32], at: usize, mark: bool, expected: f32| match values.get(at) {
-            Some(found) if found.to_bits() == expected.to_bits() => {
+            Some(found) if found.to_bits() == kept(expected).to_bits() => {
                 if mark {
                     met[at] = true;
                 }
                 Ok(())
             }
-            Some(found) => Err(format!("{name}: number {at} is {found:?}, the network has {expected:?}")),
+            Some(found) => Err(format!("{name}: number {at} is {found:?}, the network has {:?}", kept(expected))),
             None => Err(format!("{name} holds {} numbers, number {at} is needed", values.len())),
         };
         for o in 0..dense.outputs() {
             for i in 0..dense.inputs() {
-                compare(&weights_name, &weights, weight_at(i, o), true, dense.weight(i, o))?;
+                compare(&weights_name, weights, weight_at(i, o), true, dense.weight(i, o))?;
             }
             match folded {
-                true => compare(&weights_name, &weights, weight_at(dense.inputs(), o), true, dense.biases[o])?,
-                false => compare(&biases_name, &biases, o, false, dense.biases[o])?,
+                true => compare(&weights_name, weights, weight_at(dense.inputs(), o), true, dense.biases[o])?,
+                false => compare(&biases_name, biases, o, false, dense.biases[o])?,
             }
         }
         if let Some(at) = (0..weights.len()).find(|&at| !met[at] && weights[at] != 0.0) {
@@ -84,7 +125,7 @@ pub fn weights(format: Format, module: &Module, mlp: &Mlp) -> Result<(), String>
             expected_names.push(biases_name);
         }
     }
-    if let Some(name) = interpreter.constant_names().find(|name| name.starts_with("NMT_") && !expected_names.iter().any(|e| e == name)) {
+    if let Some((name, _)) = constants.iter().find(|(name, _)| name.starts_with(PREFIX) && name != ROUNDING && !expected_names.contains(name)) {
         return Err(format!("constant '{name}' belongs to no layer of the network"));
     }
     Ok(())
@@ -107,32 +148,56 @@ pub fn literal_indices(module: &Module) -> Result<(), String> {
     Ok(())
 }
 
+/// Runs a compiler with a source on its standard input; none where it is not installed.
+pub(super) fn run_on(program: impl AsRef<std::ffi::OsStr>, arguments: &[&std::ffi::OsStr], input: &[u8]) -> Option<std::io::Result<Output>> {
+    let mut child = Command::new(program).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().ok()?;
+    let feed = child.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(input));
+    Some(match (feed, child.wait_with_output()) {
+        // A compiler that stops reading has said why.
+        (Err(error), Ok(output)) if output.status.success() => Err(error),
+        (_, output) => output,
+    })
+}
+
+/// Whether a compiler was content; else its own words.
+pub(super) fn verdict(program: &str, output: std::io::Result<Output>) -> Result<(), String> {
+    match output {
+        Err(error) => Err(format!("{program}: {error}")),
+        Ok(output) if output.status.success() => Ok(()),
+        Ok(output) => {
+            let said = [output.stdout, output.stderr].map(|t| String::from_utf8_lossy(&t).trim().to_owned()).join("\n");
+            Err(if said.trim().is_empty() { format!("{program} ends with {}", output.status) } else { said.trim().to_owned() })
+        }
+    }
+}
+
 /// Runs glslangValidator on a GLSL export; none where the program is not installed.
 ///
 /// # Errors
 /// Its own words.
 pub fn glslang(source: &str) -> Option<Result<(), String>> {
-    let mut child = Command::new("glslangValidator")
-        .args(["--stdin", "-S", "frag"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .ok()?;
-    let whole = complete_glsl(source);
-    let feed = child.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(whole.as_bytes()));
-    Some(match (feed, child.wait_with_output()) {
-        (_, Err(error)) | (Err(error), _) => Err(format!("glslangValidator: {error}")),
-        (Ok(()), Ok(output)) if output.status.success() => Ok(()),
-        (Ok(()), Ok(output)) => Err(String::from_utf8_lossy(&output.stdout).trim().to_owned()),
-    })
+    let arguments = ["--stdin", "-S", "frag"].map(std::ffi::OsStr::new);
+    run_on(GLSLANG, &arguments, complete_glsl(source).as_bytes()).map(|output| verdict(GLSLANG, output))
+}
+
+/// The compiler of GLSL and HLSL.
+const GLSLANG: &str = "glslangValidator";
+
+/// Runs glslangValidator on a whole HLSL compute shader, which it makes SPIR-V of; none where the program is not installed.
+///
+/// # Errors
+/// Its own words.
+pub fn glslang_hlsl(shader: &str, entry: &str, spirv: &Path) -> Option<Result<(), String>> {
+    let head = ["-D", "--stdin", "-S", "comp", "-V", "-e", entry, "-o"].map(std::ffi::OsStr::new);
+    let arguments: Vec<_> = head.into_iter().chain([spirv.as_os_str()]).collect();
+    run_on(GLSLANG, &arguments, shader.as_bytes()).map(|output| verdict(GLSLANG, output))
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::interpret::Value;
     use super::*;
-    use crate::export::{encode, shader::ENTRY};
+    use crate::export::{encode, shader::ENTRY, shader::half_limit};
     use crate::features::recentred::{Known, PixelSums, Seen};
     use crate::features::{FeatureSet, paper};
     use crate::model::mlp::tests::random_mlp;
@@ -141,10 +206,11 @@ mod tests {
     use crate::pixel::{LogWarp, ViewZ};
     use rand::RngExt;
 
-    const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPacked, Format::Glsl, Format::GlslPacked];
+    const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::Glsl, Format::GlslPlain];
+    const HALVES: [Format; 2] = [Format::WgslF16, Format::WgslPlainF16];
 
     fn source(mlp: &Mlp, format: Format) -> String {
-        String::from_utf8(encode(mlp, format)).unwrap()
+        String::from_utf8(encode(mlp, format).unwrap()).unwrap()
     }
 
     /// Sizes that are and are not multiples of four, one to three layers: every form validates, reads back and computes the reference's numbers.
@@ -158,19 +224,42 @@ mod tests {
             for format in SHADERS {
                 let text = source(&mlp, format);
                 let module = parse(format, &text).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
-                weights(format, &module, &mlp).unwrap();
+                weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
                 literal_indices(&module).unwrap();
                 let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
                 for (o, r) in out.iter().zip(&reference) {
                     match format {
                         // The plain form adds in the reference's order: the same bits.
-                        Format::Wgsl | Format::Glsl => assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}"),
+                        Format::WgslPlain | Format::GlslPlain => assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}"),
                         _ => assert!((o - r).abs() < 2e-6, "{format:?} {hidden:?}: {o} {r}"),
                     }
                 }
                 if let Some(result) = text.contains("float nmt").then(|| glslang(&text)).flatten() {
                     result.unwrap();
                 }
+            }
+        }
+    }
+
+    /// With hidden layers in f16 the plain form computes our own pass to the bit; the packed one sums in another order. Control: f32.
+    #[test]
+    fn halves_of_every_size_compute_our_own_pass() {
+        let mut rng = stream(3, 1, 0);
+        let rows: Vec<f32> = (0..7 * 300).map(|_| rng.random_range(-2.0..2.0)).chain([1e4, -1e4, 70.0, 0.0, 1e-39, -3e-6, 0.1]).collect();
+        for hidden in [&[][..], &[1], &[8], &[5], &[32, 16], &[6, 3], &[4, 7, 2]] {
+            let mlp = random_mlp(hidden, 9);
+            let ours = super::super::half::forward_batch(&mlp, half_limit(&mlp).unwrap(), &rows);
+            for format in HALVES {
+                let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
+                weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
+                literal_indices(&module).unwrap();
+                let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
+                let worst = out.iter().zip(&ours).map(|(a, b)| if near(*a, *b, 9.0) { (a - b).abs() } else { 9.0 }).fold(0.0, f32::max);
+                assert!(worst <= if format == Format::WgslPlainF16 { 0.0 } else { 2e-2 }, "{format:?} {hidden:?}: {worst}");
+                // What asks for f16 is not taken for f32, and does not compute it.
+                assert!(parse(Format::Wgsl, &source(&mlp, format)).is_err() != hidden.is_empty());
+                let single = mlp.forward_batch::<f32>(&rows);
+                assert!(out.iter().zip(&single).any(|(a, b)| (a - b).abs() > 1e-4) != hidden.is_empty());
             }
         }
     }
@@ -184,7 +273,7 @@ mod tests {
                 for format in SHADERS {
                     let changed = source(&mlp, format).replacen(&format!("{value:?}"), &format!("{:?}", f32::from_bits(value.to_bits() ^ 1)), 1);
                     let module = parse(format, &changed).unwrap();
-                    let message = weights(format, &module, &mlp).unwrap_err();
+                    let message = weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap_err();
                     assert!(message.contains("the network has"), "{message}");
                 }
             }
@@ -211,7 +300,7 @@ mod tests {
         for format in SHADERS {
             let text = source(&mlp, format);
             let module = parse(format, &text).unwrap();
-            weights(format, &module, &mlp).unwrap();
+            weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
             let interpreter = Interpreter::new(&module);
             for (v, v0, v1) in [(3.0, 2.0, 6.0), (2.0, 2.0, 6.0), (6.0, 2.0, 6.0), (1.0, 2.0, 6.0), (9.0, 2.0, 6.0), (2.0, 2.0, 2.0)] {
                 let arguments = [v, v0, v1, 1.5, 4.0].map(|x| Value::<1>::Uniform(x as f32)).to_vec();
@@ -281,7 +370,7 @@ mod tests {
     fn recentred_shaders_follow_their_twin() {
         fn compare<const K: usize>(set: FeatureSet) {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
-            for format in [Format::Wgsl, Format::GlslPacked] {
+            for format in [Format::Wgsl, Format::Glsl] {
                 let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
                 let interpreter = Interpreter::new(&module);
                 let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
@@ -339,6 +428,63 @@ mod tests {
                     }
                 }
                 assert!(known > 300 && asked > 300 && controls > asked / 2, "{known} known, {asked} asked, {controls} controls failed");
+            }
+        }
+        compare::<4>(FeatureSet::Recentred);
+        compare::<6>(FeatureSet::Recentred6);
+        compare::<8>(FeatureSet::Recentred8);
+    }
+
+    /// `nmt_fragment_transmittance`, which leaves early, against `nmt_recentred`, which computes everything, with `nmt_transmittance` behind it: the same bits, for
+    /// pixels of every kind of answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
+    #[test]
+    fn early_answers_are_those_of_the_whole_computation() {
+        fn compare<const K: usize>(set: FeatureSet) {
+            let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
+            for format in [Format::Wgsl, Format::GlslPlain] {
+                let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
+                let interpreter = Interpreter::new(&module);
+                let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+                let mut rng = stream(5, 93, K as u64);
+                // Answers by kind: nearest or hardly any others, farthest, three, four, the network.
+                let (mut kinds, mut controls) = ([0; 5], 0);
+                for round in 0..400 {
+                    let n = 1 + round % 8;
+                    let half = 10f32.powf(rng.random_range(-4.0..-0.3));
+                    let least = if round % 9 == 0 { 0.999 } else { 0.001 };
+                    let mut pixel: Vec<Seen<f32>> = (0..n)
+                        .map(|_| {
+                            let z = rng.random_range(-half..half) + 0.3;
+                            Seen { view_z: z.exp(), z, absorbance: -(1.0f32 - rng.random_range(least..0.9999)).ln() }
+                        })
+                        .collect();
+                    if round % 5 == 0 {
+                        pixel[n / 2] = pixel[0];
+                    }
+                    let mut sums = PixelSums::<f32, K>::default();
+                    pixel.iter().for_each(|&s| sums.add(s));
+                    let end = |at: f32| pixel.iter().find(|s| s.view_z == at).unwrap().z;
+                    let ends = [end(sums.nearest), end(sums.farthest)];
+                    for s in &pixel {
+                        let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
+                        let arguments: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
+                        let whole = one("nmt_recentred", arguments.clone());
+                        let (features, known) = (&whole[..set.width()], whole[set.width()]);
+                        let network = one(ENTRY, vec![Value::numbers(features)])[0];
+                        let answer = one("nmt_fragment_transmittance", arguments)[0];
+                        let expected = if known >= 0.0 { known } else { network };
+                        assert_eq!(answer.to_bits(), expected.to_bits(), "{format:?} K = {K} n = {n}: {answer} for {expected}");
+                        controls += usize::from(known >= 0.0 && answer != network);
+                        kinds[match () {
+                            () if known < 0.0 => 4,
+                            () if known == 1.0 => 0,
+                            () if s.view_z == sums.farthest => 1,
+                            () => n - 1,
+                        }
+                        .min(4)] += 1;
+                    }
+                }
+                assert!(kinds.iter().all(|&k| k > 20) && controls > 300, "{kinds:?}, {controls} controls");
             }
         }
         compare::<4>(FeatureSet::Recentred);

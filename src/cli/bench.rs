@@ -1,5 +1,7 @@
 //! `nmt bench`
 
+mod methods;
+
 use super::Verdict;
 use super::config::Config;
 use super::train::BackendName;
@@ -29,6 +31,10 @@ enum What {
     Generate(BenchGenerate),
     /// Rows a second that a network answers, against the reference and onnxruntime.
     Infer(BenchInfer),
+    /// Time of transparency methods and networks on a fragment list against their error, on the CPU and the GPU.
+    Methods(methods::BenchMethods),
+    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only in the tiles that need it.
+    Tiles(super::bench_tiles::BenchTiles),
 }
 
 /// Options of every benchmark.
@@ -257,6 +263,8 @@ impl Bench {
             What::Train(c) => c.execute(ui),
             What::Generate(c) => c.execute(ui),
             What::Infer(c) => c.execute(ui),
+            What::Methods(c) => c.execute(ui),
+            What::Tiles(c) => c.execute(ui),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `nmt check`
 
 use super::Verdict;
-use super::export::{FormatName, formats};
+use super::export::FormatArguments;
 use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
 use crate::export::Format;
@@ -21,9 +21,8 @@ pub struct Check {
     /// Folder of its exports.
     #[arg(long, value_name = "DIR")]
     exports: PathBuf,
-    /// Formats to check.
-    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FormatName::ALL)]
-    format: Vec<FormatName>,
+    #[command(flatten)]
+    formats: FormatArguments,
     #[command(flatten)]
     options: CheckArguments,
 }
@@ -31,7 +30,7 @@ pub struct Check {
 /// Options that `check` and `run` share.
 #[derive(Args, Clone)]
 pub struct CheckArguments {
-    /// Tools whose absence is a failure: onnxruntime, glslangValidator, gpu. NMT_REQUIRE does the same.
+    /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the same.
     #[arg(long, value_delimiter = ',', value_name = "TOOLS")]
     require: Vec<String>,
 }
@@ -52,7 +51,7 @@ impl CheckArguments {
 impl Check {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let mlp = file::load(&self.model)?;
-        let findings = findings(&mlp, &self.exports, &formats(&self.format), &self.options, ui)?;
+        let findings = findings(&mlp, &self.exports, &self.formats.formats()?, &self.options, ui)?;
         if ui.json() {
             ui.print_json("check", findings.iter().map(to_json).collect())?;
         } else {
@@ -92,17 +91,17 @@ pub fn to_json(finding: &Finding) -> Value {
         .map(|n| {
             json!({
                 "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(), "worst_error": n.export.worst(),
-                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar,
+                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar, "mean_bar": n.mean_bar,
             })
         })
         .collect();
-    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "numbers": numbers })
+    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "note": finding.note, "numbers": numbers })
 }
 
 /// A table of all findings, then the reasons of those that did not pass.
 fn text(findings: &[Finding]) -> String {
     let mut rows =
-        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own f32", "bar", "result"].map(str::to_owned).to_vec()];
+        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own pass", "bar", "result"].map(str::to_owned).to_vec()];
     let mut reasons = String::new();
     for f in findings {
         let result = match &f.status {
@@ -116,6 +115,12 @@ fn text(findings: &[Finding]) -> String {
                 "skipped"
             }
         };
+        if let Some(note) = &f.note {
+            let line = format!("{}: {note}\n", f.tool);
+            if !reasons.contains(&line) {
+                reasons += &line;
+            }
+        }
         let head = [f.format.name(), f.tool, f.question].map(str::to_owned);
         if f.numbers.is_empty() {
             rows.push(head.iter().cloned().chain(["", "", "", "", "", result].map(str::to_owned)).collect());

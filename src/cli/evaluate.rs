@@ -1,14 +1,21 @@
 //! `nmt evaluate`
 
 use super::Verdict;
+use super::predict::SkipName;
 use super::scene::{SceneOptions, load};
 use super::ui::{Ui, report, table};
-use crate::evaluate::picture::{Sheet, file_stem, write_image, write_method};
-use crate::evaluate::{MethodResult, Truth, sort_by_error};
+use crate::evaluate::gpu::{self, GpuResult};
+use crate::evaluate::judge::by_error;
+use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
+use crate::evaluate::{MethodResult, Truth};
+use crate::export::Format;
+use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::features::MomentFrame;
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
-use crate::oit::{Context, Method, all_names, neural::Neural, parse};
-use crate::pixel::CameraPlanes;
+use crate::oit::neural::{Neural, Skip};
+use crate::oit::{Context, Method, all_names, parse};
+use crate::pixel::{CameraPlanes, FragmentList};
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -26,6 +33,12 @@ pub struct Evaluate {
     /// Networks to evaluate beside them.
     #[arg(long, value_name = "MODEL.json", num_args = 1..)]
     model: Vec<PathBuf>,
+    /// Which fragments to run those networks for.
+    #[arg(long, value_enum, default_value = "exact")]
+    skip: SkipName,
+    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass has found.
+    #[arg(long, requires = "model")]
+    prepass: bool,
     /// Folder for images, contact sheets and results.json.
     #[arg(long)]
     out: PathBuf,
@@ -43,9 +56,21 @@ pub struct Evaluate {
     /// Linear colour behind everything.
     #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
     background: Vec<f64>,
+    /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
+    #[arg(long)]
+    gpu: bool,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
+}
+
+/// A method that was asked for.
+struct Asked {
+    method: Box<dyn Method>,
+    /// Whether it was asked for by its own name.
+    demanded: bool,
+    /// What the GPU runs; none where there is no shader for it.
+    shader: Option<Result<MethodShader, GpuError>>,
 }
 
 /// The file that holds all numbers.
@@ -62,6 +87,7 @@ impl Evaluate {
             bail!("--background {wrong}: every channel must lie in [0, 1]");
         }
         let methods = self.methods()?;
+        let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
 
         let names = scene_names(&self.fragments);
         let mut results = Vec::new();
@@ -83,11 +109,11 @@ impl Evaluate {
                 }
             };
             let progress = ui.progress("evaluate", methods.len() as u64);
-            let mut found: Vec<MethodResult> = Vec::new();
+            let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-            for (index, (method, demanded)) in methods.iter().enumerate() {
+            for (index, Asked { method, demanded, shader }) in methods.iter().enumerate() {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
-                let judged = match truth.judge(&**method, context) {
+                let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
                     Err(why) => {
                         refused |= *demanded;
@@ -99,22 +125,46 @@ impl Evaluate {
                 let stem = (1..).map(|n| if n == 1 { file_stem(&method.name()) } else { format!("{}-{n}", file_stem(&method.name())) });
                 let stem = stem.into_iter().find(|s| !stems.contains(s)).expect("there are more numbers than methods");
                 write_method(&folder, &stem, replace, &judged)?;
-                stems.insert(stem);
+                let mut drawn = None;
+                if let (Some(gpu), Some((image, _))) = (gpu, &judged.picture) {
+                    let judged = match shader {
+                        Some(Ok(shader)) => gpu::judge(gpu, shader, &truth, context, image).map_err(|e| e.to_string()),
+                        Some(Err(why)) => Err(why.to_string()),
+                        None => Err(format!("{} has no shader", method.name())),
+                    };
+                    match judged {
+                        Ok(judged) => {
+                            write_image(&folder.join(format!("{stem}.gpu.png")), replace, &judged.image)?;
+                            write_flip(&folder.join(format!("{stem}.gpu.flip.png")), replace, &judged.map)?;
+                            drawn = Some(judged.result);
+                        }
+                        Err(why) => remarks += &format!("not on the GPU, {why}\n"),
+                    }
+                }
+                stems.insert(stem.clone());
+                judged.result.picture = judged.picture.is_some().then_some(stem);
                 if let Some(sheet) = &mut sheet {
                     sheet.add(&judged)?;
                 }
-                found.push(judged.result);
+                found.push((judged.result, drawn));
             }
             progress.finish();
-            sort_by_error(&mut found);
+            found.sort_by(|a, b| by_error(&a.0, &b.0));
             if let Some(sheet) = sheet.filter(|_| !found.is_empty()) {
                 sheet.write(&folder.join("sheet.png"), replace)?;
             }
             let heading = format!("{name}: {} fragments, at most {} in a pixel\n", list.len(), list.depth_complexity());
             if !ui.json() {
-                ui.print(&format!("{heading}{}{remarks}\n", rows(&found)))?;
+                let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, &found));
+                ui.print(&format!("{heading}{}{on_gpu}{remarks}\n", rows(&found)))?;
             }
-            results.extend(found.iter().map(|r| with_scene(r, name)));
+            results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())));
+        }
+        let skip = Skip::from(self.skip);
+        for result in results.iter_mut().filter_map(Value::as_object_mut) {
+            if result.get("method").and_then(Value::as_str).is_some_and(|name| name.starts_with("neural:")) {
+                result.insert("skip".to_owned(), json!(skip));
+            }
         }
         let report = report("evaluate", results);
         let json = serde_json::to_string_pretty(&report)? + "\n";
@@ -130,20 +180,32 @@ impl Evaluate {
         Ok(Verdict::Fine)
     }
 
-    /// The methods, each with whether it was asked for by its own name.
-    fn methods(&self) -> anyhow::Result<Vec<(Box<dyn Method>, bool)>> {
+    fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
+        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
         for name in &self.methods {
             let (names, demanded) = if name == "all" { (all_names(), false) } else { (vec![name.clone()], true) };
             for name in names {
                 if seen.insert(name.clone()) {
-                    methods.push((parse(&name)?, demanded));
+                    let method = parse(&name)?;
+                    let shader = match name.strip_prefix("neural:") {
+                        _ if !self.gpu => None,
+                        Some(path) => Some(shader(Path::new(path))?),
+                        None => MethodShader::classic(&name).map(Ok),
+                    };
+                    methods.push(Asked { method, demanded, shader });
                 }
             }
         }
         for path in &self.model {
-            methods.push((Box::new(Neural::new(file::load(path)?)) as Box<dyn Method>, true));
+            let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
+            methods.push(Asked { method, demanded: true, shader: self.gpu.then(|| shader(path)).transpose()? });
+            let after = Neural::new(file::load(path)?).with_skip(self.skip.into()).with_frame(MomentFrame::Pixel);
+            // A network whose moments are not of logarithmic depth has no other frame.
+            if self.prepass && after.frame() == MomentFrame::Pixel {
+                methods.push(Asked { method: Box::new(after), demanded: true, shader: None });
+            }
         }
         Ok(methods)
     }
@@ -161,16 +223,23 @@ fn scene_names(fragments: &[String]) -> Vec<String> {
     names
 }
 
-fn with_scene(result: &MethodResult, scene: &str) -> Value {
+/// A result with what it is of.
+fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList, gpu: Option<&GpuResult>) -> Value {
     let mut value = serde_json::to_value(result).expect("results are plain data");
     if let Some(object) = value.as_object_mut() {
         object.insert("scene".to_owned(), scene.into());
+        object.insert("pixels".to_owned(), list.pixels().into());
+        object.insert("fragments".to_owned(), list.len().into());
+        object.insert("depth_complexity".to_owned(), list.depth_complexity().into());
+        if let Some(gpu) = gpu {
+            object.insert("gpu".to_owned(), serde_json::to_value(gpu).expect("results are plain data"));
+        }
     }
     value
 }
 
 /// Results as a table, in the order in which they stand.
-fn rows(results: &[MethodResult]) -> String {
+fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
     let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| match x {
         None => "-".to_owned(),
         Some(x) if x.is_nan() => "NaN".to_owned(),
@@ -178,7 +247,7 @@ fn rows(results: &[MethodResult]) -> String {
     };
     let head = ["method", "image MSE x1e-4", "PSNR dB", "FLIP", "T-MSE", "worst T", "non-finite", "bits/pixel", "seconds"];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
-    for r in results {
+    for (r, _) in results {
         lines.push(vec![
             r.method.clone(),
             number(r.image_mse, &|x| format!("{:.4}", x * 1e4)),
@@ -192,6 +261,32 @@ fn rows(results: &[MethodResult]) -> String {
         ]);
     }
     table(&lines)
+}
+
+/// What the GPU drew, as a table under its name.
+fn gpu_rows(gpu: &Gpu, results: &[(MethodResult, Option<GpuResult>)]) -> String {
+    if results.iter().all(|r| r.1.is_none()) {
+        return String::new();
+    }
+    let milliseconds = |s: f64| format!("{:.2}", s * 1e3);
+    let head = ["method", "99.9 % within", "worst", "FLIP to CPU", "image MSE x1e-4", "FLIP", "non-finite", "pass 1 ms", "pass 2 ms", "resolve ms"];
+    let mut lines = vec![head.map(str::to_owned).to_vec()];
+    for r in results.iter().filter_map(|r| r.1.as_ref()) {
+        lines.push(vec![
+            r.method.clone(),
+            format!("{:.1e}", r.channel_difference_999),
+            format!("{:.1e}", r.channel_difference_worst),
+            format!("{:.1e}", r.flip_mean_to_cpu),
+            format!("{:.4}", r.image_mse * 1e4),
+            format!("{:.4}", r.flip_mean),
+            r.image_nonfinite.to_string(),
+            milliseconds(r.seconds_accumulate),
+            milliseconds(r.seconds_weights),
+            milliseconds(r.seconds_resolve),
+        ]);
+    }
+    let how = if gpu.blends_f32() { "render passes" } else { "compute passes, since it cannot blend into f32 targets" };
+    format!("\n{}, {how}, against the images above:\n{}", gpu.name(), table(&lines))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The command line: the only place that parses arguments, shows progress and prints.
 
 mod bench;
+mod bench_tiles;
 mod check;
 mod config;
 mod evaluate;
@@ -9,6 +10,8 @@ mod generate;
 mod import;
 mod interrupt;
 mod predict;
+mod profile;
+mod report;
 mod run;
 mod scene;
 mod stress;
@@ -58,10 +61,14 @@ enum Command {
     Evaluate(evaluate::Evaluate),
     /// Render a scene, or convert a deep image, to a fragment list.
     Scene(scene::Scene),
-    /// Measure how fast training, generation and inference are.
+    /// Measure how fast training, generation, inference and transparency methods are.
     Bench(bench::Bench),
     /// Find out where methods break: numerical stability of each, case by case.
     Stress(stress::Stress),
+    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
+    Profile(profile::Profile),
+    /// Make one self-contained HTML page of what the other commands measured.
+    Report(report::Report),
     /// Make a model file from the weights of another program.
     Import(import::Import),
 }
@@ -113,6 +120,8 @@ pub fn main() -> ExitCode {
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),
+        Command::Profile(c) => c.execute(&ui),
+        Command::Report(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
     };
     match done {

@@ -3,17 +3,19 @@
 use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
-use crate::features::OutputMeaning;
+use crate::features::{MomentFrame, OutputMeaning};
+use crate::features::passes::{Class, Tally};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
-use crate::oit::{Context, neural::Neural};
+use crate::oit::Context;
+use crate::oit::neural::{Answered, Neural, Skip};
 use crate::pixel::{CameraPlanes, abuffer};
 use crate::scene;
 use anyhow::bail;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use ndarray::ArrayView1;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -33,9 +35,35 @@ pub struct Predict {
     /// Far plane of the camera, instead of the list's own [scene units].
     #[arg(long, requires = "near")]
     far: Option<f32>,
+    /// Which fragments to run the network for.
+    #[arg(long, value_enum, default_value = "exact")]
+    skip: SkipName,
+    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too thin then.
+    #[arg(long)]
+    prepass: bool,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
+}
+
+#[derive(ValueEnum, Clone, Copy)]
+pub enum SkipName {
+    /// All; what is known exactly then replaces its answers.
+    None,
+    /// Those whose answer is used: the same numbers as with none.
+    Exact,
+    /// Those that can be seen: no channel of the image changes by more than 1/512.
+    Visible,
+}
+
+impl From<SkipName> for Skip {
+    fn from(name: SkipName) -> Self {
+        match name {
+            SkipName::None => Self::None,
+            SkipName::Exact => Self::Exact,
+            SkipName::Visible => Self::Visible,
+        }
+    }
 }
 
 impl Predict {
@@ -50,13 +78,15 @@ impl Predict {
         }
         let list = scene::read(&self.fragments)?;
         let shape = mlp.shape();
-        let method = Neural::new(mlp);
+        let skip = Skip::from(self.skip);
+        let frame = if self.prepass { MomentFrame::Pixel } else { MomentFrame::Scene };
+        let method = Neural::new(mlp).with_skip(skip).with_frame(frame);
         let progress = ui.progress("predict", list.len() as u64);
         let start = Instant::now();
-        let transmittance = method.transmittance(&list, Context { planes, ..Context::default() }, &|n| progress.set(n, "fragments"));
+        let answered = method.answers(&list, Context { planes, ..Context::default() }, &|n| progress.set(n, "fragments"));
         let seconds = start.elapsed().as_secs_f64();
         progress.finish();
-        let transmittance = transmittance?;
+        let Answered { transmittance, tally, .. } = answered?;
         write_npy(&self.out, replace, ArrayView1::from(&transmittance))?;
         let error = transmittance_error(&transmittance, &abuffer::list_transmittance(&list));
         let rate = list.len() as f64 / seconds;
@@ -66,7 +96,8 @@ impl Predict {
                 vec![json!({
                     "network": shape, "fragments": list.len(), "pixels": list.pixels(), "depth_complexity": list.depth_complexity(),
                     "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
-                    "seconds": seconds, "fragments_per_second": rate, "file": self.out,
+                    "seconds": seconds, "fragments_per_second": rate, "file": self.out, "skip": skip, "frame": frame, "network_rows": tally.rows,
+                    "seconds_pass_1": tally.seconds_pass_1, "seconds_pass_2": tally.seconds_pass_2, "fragments_by_class": by_class(&tally),
                 })],
             )?;
         } else {
@@ -75,14 +106,33 @@ impl Predict {
                 false => format!("against the A-buffer: T-MSE {:.3e}, worst error {:.3}", error.mse(), error.worst()),
             };
             ui.print(&format!(
-                "{} fragments in {} pixels (at most {} in one), {:.2} M fragments/s\n{against}\n{}\n",
+                "{} fragments in {} pixels (at most {} in one), {:.2} M fragments/s\n{}\n{against}\n{}\n",
                 list.len(),
                 list.pixels(),
                 list.depth_complexity(),
                 rate / 1e6,
+                summary(&tally),
                 self.out.display()
             ))?;
         }
         Ok(Verdict::Fine)
     }
+}
+
+/// Fragments of every class, by its name.
+fn by_class(tally: &Tally) -> Value {
+    Class::ALL.iter().map(|&class| (class.name().to_owned(), json!(tally.of(class)))).collect::<serde_json::Map<_, _>>().into()
+}
+
+/// What the network was run for, and what decided the rest.
+fn summary(tally: &Tally) -> String {
+    let share = |n: u64| format!("{:.1} %", 100.0 * n as f64 / tally.fragments().max(1) as f64);
+    let classes: Vec<String> = Class::ALL.iter().filter(|&&c| tally.of(c) > 0).map(|&c| format!("{} {}", c.name(), share(tally.of(c)))).collect();
+    format!(
+        "network run for {} of them; {}; pass 1 {:.1} ms, pass 2 {:.1} ms",
+        tally.rows,
+        if classes.is_empty() { "none to answer".to_owned() } else { classes.join(", ") },
+        1e3 * tally.seconds_pass_1,
+        1e3 * tally.seconds_pass_2
+    )
 }

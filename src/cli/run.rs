@@ -65,8 +65,8 @@ impl Run {
         trained.mlp.provenance.transmittance_worst_error = Some(error.worst());
         trained.keep(&model, Replace::Yes, &checkpoint)?;
 
-        export::write(&trained.mlp, &exports, &Format::ALL, Replace::Yes)?;
-        let findings = findings(&trained.mlp, &exports, &Format::ALL, &self.check, &stages)?;
+        export::write(&trained.mlp, &exports, &Format::DEFAULT, Replace::Yes)?;
+        let findings = findings(&trained.mlp, &exports, &Format::DEFAULT, &self.check, &stages)?;
 
         let mut summary = trained.to_json();
         let more = json!({
@@ -140,7 +140,7 @@ fn text(out: &Path, trained: &Trained, error: &AbsoluteError, findings: &[Findin
     text += &format!("fresh pixels T-MSE {:.3e} over {} fragments, worst error {:.3}\n\n", error.mse(), error.count(), error.worst());
     let mut rows = vec![["format", "worst export error", "checks", "file"].map(str::to_owned).to_vec()];
     let mut reasons: Vec<String> = Vec::new();
-    for format in Format::ALL {
+    for format in Format::DEFAULT {
         let of_format: Vec<&Finding> = findings.iter().filter(|f| f.format == format).collect();
         let worst = of_format
             .iter()

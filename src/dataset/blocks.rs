@@ -1,7 +1,11 @@
 //! Rows side by side, sixteen to a block: the layout that training reads.
 
-use super::Rows;
+use super::{Row, Rows};
 use crate::numeric::lanes::{LANES, Lanes};
+use rayon::prelude::*;
+
+/// Blocks that one task moves: enough to outweigh handing them over.
+const TASK: usize = 512;
 
 /// Rows in blocks of sixteen. A block holds W columns of features, then the targets, then the weights; rows that fill up the last block weigh 0.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,26 +26,53 @@ impl Blocks {
     /// # Panics
     /// If an index is out of range.
     pub fn of(rows: &Rows, order: &[u32]) -> Self {
-        let mut blocks = Self::zeros(rows.feature_set.width(), order.len());
-        for (at, &row) in order.iter().enumerate() {
-            blocks.set(at, rows, row as usize);
-        }
+        Self::from_fn(rows.feature_set.width(), 0, order.len(), |at| rows.row(order[at] as usize))
+    }
+
+    /// `lead` rows that weigh nothing, then `rows` rows as `row` gives them for 0, 1, ..; on all cores.
+    ///
+    /// # Panics
+    /// If a row is not `width` wide.
+    pub fn from_fn<'a>(width: usize, lead: usize, rows: usize, row: impl Fn(usize) -> Row<'a> + Sync) -> Self {
+        let mut blocks = Self::zeros(width, lead + rows);
+        let columns = blocks.columns();
+        blocks.data.par_chunks_mut(TASK * columns).enumerate().for_each(|(task, data)| {
+            for (index, block) in data.chunks_exact_mut(columns).enumerate() {
+                let start = (task * TASK + index) * LANES;
+                for at in start.max(lead)..(start + LANES).min(lead + rows) {
+                    let Row { features, target, weight } = row(at - lead);
+                    assert_eq!(features.len(), width, "rows of the same width");
+                    for (column, value) in block.iter_mut().zip(features.iter().copied().chain([target, weight])) {
+                        column.0[at - start] = value;
+                    }
+                }
+            }
+        });
         blocks
     }
 
-    /// Puts a row in a place.
+    /// Overwrites the rows from `start` on with those of `other`, whose lead is as many rows as stand before `start` in its block.
     ///
     /// # Panics
-    /// If either is out of range or the widths differ.
-    pub fn set(&mut self, at: usize, rows: &Rows, row: usize) {
-        assert!(at < self.rows && self.width == rows.feature_set.width(), "a place of these blocks, rows of the same width");
-        let columns = self.columns();
-        let (block, lane) = (&mut self.data[at / LANES * columns..][..columns], at % LANES);
-        for (column, &feature) in block.iter_mut().zip(&rows.features[row * self.width..][..self.width]) {
-            column.0[lane] = feature;
-        }
-        block[self.width].0[lane] = rows.targets[row];
-        block[self.width + 1].0[lane] = rows.weights.get(row).copied().unwrap_or(1.0);
+    /// If the widths differ, or `other` reaches beyond the last row.
+    pub fn splice(&mut self, start: usize, other: &Self) {
+        let (lead, columns) = (start % LANES, self.columns());
+        let end = start - lead + other.rows;
+        assert!(self.width == other.width && end <= self.rows, "rows of the same width, in places of these blocks");
+        let data = &mut self.data[start / LANES * columns..][..other.data.len()];
+        data.par_chunks_mut(TASK * columns).zip(other.data.par_chunks(TASK * columns)).enumerate().for_each(|(task, (data, other))| {
+            for (index, (block, from)) in data.chunks_exact_mut(columns).zip(other.chunks_exact(columns)).enumerate() {
+                let first = start - lead + (task * TASK + index) * LANES;
+                let lanes = start.saturating_sub(first)..(end - first).min(LANES);
+                if lanes.len() == LANES {
+                    block.copy_from_slice(from);
+                } else {
+                    for (column, from) in block.iter_mut().zip(from) {
+                        column.0[lanes.clone()].copy_from_slice(&from.0[lanes.clone()]);
+                    }
+                }
+            }
+        });
     }
 
     /// Features of a row, W.
@@ -141,5 +172,31 @@ mod tests {
         // What fills the last block up weighs nothing.
         assert!(blocks.block(2)[8].0[5..].iter().all(|&w| w == 0.0));
         assert!(Blocks::of(&rows, &[]).is_empty());
+    }
+
+    /// Wherever rows are put: there they stand, and all others are what they were.
+    #[test]
+    fn spliced_rows_replace_those_that_stood_there() {
+        let rows = |n: usize, from: usize| Rows {
+            feature_set: FeatureSet::DeepWeightedBlended,
+            features: (0..3 * n).map(|i| (3 * from + i) as f32).collect(),
+            targets: (0..n).map(|i| (from + i) as f32).collect(),
+            weights: (0..n).map(|i| 1.0 + (from + i) as f32).collect(),
+            pixels: vec![0; n],
+        };
+        let n = 20_000;
+        let order: Vec<u32> = (0..n as u32).collect();
+        let old = rows(n, 0);
+        for (start, count) in [(0, 16), (0, 5), (3, 4), (3, 13), (15, 2), (16, 16), (37, 12_345), (n - 1, 1), (0, n), (7, n - 7), (40, 0)] {
+            let fresh = rows(count, 50_000);
+            let mut blocks = Blocks::of(&old, &order);
+            blocks.splice(start, &Blocks::from_fn(3, start % LANES, count, |i| fresh.row(i)));
+            let mut expected = old.clone();
+            expected.features[3 * start..3 * (start + count)].copy_from_slice(&fresh.features);
+            expected.targets[start..start + count].copy_from_slice(&fresh.targets);
+            expected.weights[start..start + count].copy_from_slice(&fresh.weights);
+            assert!(blocks == Blocks::of(&expected, &order), "{count} rows from {start} on");
+            assert_eq!(blocks == Blocks::of(&old, &order), count == 0);
+        }
     }
 }

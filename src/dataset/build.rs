@@ -1,20 +1,16 @@
 //! Building datasets from random pixels, or from the pixels of given lists.
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
-use super::{Dataset, Rows};
-use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Sampled, Storage, Target};
+use super::{Dataset, RowStream, Rows};
+use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Storage};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
 use rand::seq::SliceRandom;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Keeps the random numbers of the split into training and validation pixels apart from all others.
 const SPLIT_PURPOSE: u64 = 0x1004;
-
-/// Keeps the random numbers that choose among a pixel's rows apart from all others.
-const CHOICE_PURPOSE: u64 = 0x1005;
 
 /// Most rows that a dataset may be configured to have.
 pub const MOST_PAIRS: u64 = 1 << 30;
@@ -151,104 +147,6 @@ pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthErr
     Ok(Rows { feature_set: extractor.set(), features, targets, weights: Vec::new(), pixels })
 }
 
-/// Rows from random pixels, pixel after pixel for as long as one asks.
-#[derive(Debug, Clone)]
-pub struct RowStream {
-    source: Synth,
-    purpose: Purpose,
-    seed: u64,
-    config: DatasetConfig,
-    extractor: Extractor,
-    /// The next pixel.
-    next: u64,
-}
-
-impl RowStream {
-    /// A stream from pixel 0 on. Moment depth is that of the configured camera: its planes are the extremes of the scene.
-    ///
-    /// # Errors
-    /// [`DatasetError`] names the field that is wrong.
-    pub fn new(seed: u64, synth: &SynthConfig, config: &DatasetConfig, purpose: Purpose) -> Result<Self, DatasetError> {
-        config.validate()?;
-        if config.features.target() != Target::Transmittance {
-            return Err(DatasetError::NoStream(config.features.name()));
-        }
-        let source = Synth::new(synth.clone(), seed)?;
-        let extractor = Extractor::new(config.features, Some(synth.camera), Some((synth.camera.near(), synth.camera.far())))?;
-        Ok(Self { source, purpose, seed, config: config.clone(), extractor: extractor.with_storage(config.storage), next: 0 })
-    }
-
-    /// Goes on from a given pixel.
-    pub fn skip_to(&mut self, pixel: u64) {
-        self.next = pixel;
-    }
-
-    /// The next pixel.
-    pub fn position(&self) -> u64 {
-        self.next
-    }
-
-    /// At least `pairs` rows of whole pixels, the pixel that reaches the number being the last. `progress` is told how many there are so far.
-    ///
-    /// # Errors
-    /// [`DatasetError::Depth`] where a fragment's depth does not fit the feature set.
-    pub fn take(&mut self, pairs: usize, progress: &dyn Fn(u64)) -> Result<Rows, DatasetError> {
-        const CHUNK: usize = 8192;
-        // Pixels of one task.
-        const TASK: usize = 128;
-        let set = self.config.features;
-        let mut out = Rows { feature_set: set, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
-        let first = self.next;
-        while out.len() < pairs {
-            let list = self.source.pixels(self.purpose, self.next, CHUNK);
-            let tasks = (0..CHUNK / TASK).into_par_iter();
-            let parts: Vec<(Sampled, Vec<u32>)> = tasks.map(|task| self.rows_of(&list, task * TASK..(task + 1) * TASK)).collect();
-            'chunk: for (task, (part, counts)) in parts.into_iter().enumerate() {
-                let mut at = 0;
-                for (i, n) in counts.into_iter().enumerate() {
-                    let (rows, width) = (at..at + n as usize, set.width());
-                    let pixel = self.next + (task * TASK + i) as u64;
-                    out.features.extend_from_slice(&part.features[rows.start * width..rows.end * width]);
-                    out.targets.extend_from_slice(&part.targets[rows.clone()]);
-                    out.pixels.extend(std::iter::repeat_n((pixel - first) as u32, n as usize));
-                    if self.config.weights == Weighting::Image {
-                        // The rows stand for all fragments of the pixel.
-                        let stands_for = list.pixel(task * TASK + i).len() as f32 / n as f32;
-                        out.weights.extend(part.alpha[rows.clone()].iter().map(|a| a * a * stands_for));
-                    }
-                    at = rows.end;
-                    if out.len() >= pairs {
-                        self.next = pixel + 1;
-                        break 'chunk;
-                    }
-                }
-            }
-            if out.len() < pairs {
-                self.next += CHUNK as u64;
-                if out.is_empty() && self.next - first > 1 << 20 {
-                    return Err(DatasetError::NothingToLearn);
-                }
-            }
-            progress(out.len() as u64);
-        }
-        Ok(out)
-    }
-
-    /// Rows of some pixels of a list that starts at the stream's next pixel, and how many of each pixel.
-    fn rows_of(&self, list: &FragmentList, range: std::ops::Range<usize>) -> (Sampled, Vec<u32>) {
-        let most = if self.config.rows_per_pixel == 0 { usize::MAX } else { self.config.rows_per_pixel as usize };
-        let mut rows = Sampled::default();
-        let counts = range
-            .map(|p| {
-                let mut rng = stream(self.seed, CHOICE_PURPOSE, self.next + p as u64);
-                self.extractor.sample(list.pixel(p), most, &mut rng, &mut rows);
-                rows.of_pixel as u32
-            })
-            .collect();
-        (rows, counts)
-    }
-}
-
 /// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how many there are so far.
 pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dyn Fn(u64)) -> FragmentList {
     const CHUNK: usize = 4096;
@@ -282,7 +180,7 @@ pub fn build(name: &str, seed: u64, synth: &SynthConfig, config: &DatasetConfig,
         };
         let (mut training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
         let (mut validation, validation_pixels) = part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
-        normalise(&mut training.weights);
+        normalise(&mut [&mut training.weights]);
         // What is chosen by is the plain mean over rows, whatever training weighs.
         validation.weights.clear();
         let pixels = [training_pixels, validation_pixels];
@@ -311,11 +209,12 @@ pub fn pixels_of(manifest: &Manifest) -> Result<Option<[FragmentList; 2]>, Datas
     Ok(Some([part(Purpose::Training, &manifest.training), part(Purpose::Validation, &manifest.validation)]))
 }
 
-/// Scales weights to a mean of 1.
-pub fn normalise(weights: &mut [f32]) {
-    let mean = weights.iter().map(|&w| f64::from(w)).sum::<f64>() / weights.len().max(1) as f64;
+/// Scales weights, which may stand in several pieces, to a mean of 1.
+pub fn normalise(pieces: &mut [&mut [f32]]) {
+    let count: usize = pieces.iter().map(|weights| weights.len()).sum();
+    let mean = pieces.iter().flat_map(|weights| weights.iter()).map(|&w| f64::from(w)).sum::<f64>() / count.max(1) as f64;
     if mean > 0.0 {
-        weights.iter_mut().for_each(|w| *w = (f64::from(*w) / mean) as f32);
+        pieces.iter_mut().flat_map(|weights| weights.iter_mut()).for_each(|w| *w = (f64::from(*w) / mean) as f32);
     }
 }
 
@@ -358,7 +257,7 @@ pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], 
         extractors.push(Extractor::for_list(config.features, list, None, None).map_err(in_list)?.with_storage(config.storage));
     }
     let rows_of = |chosen: &[(u32, u32)]| {
-        let mut all = Rows { feature_set: config.features, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
+        let mut all = Rows::none(config.features);
         let mut before = 0;
         for of_one in chosen.chunk_by(|a, b| a.0 == b.0) {
             let index = of_one[0].0 as usize;
@@ -552,112 +451,5 @@ pub(crate) mod tests {
         assert_eq!(error.to_string(), "dataset.training_pairs = 0: must be from 1 to 1073741824");
         config.training_pairs = u64::MAX;
         assert!(config.validate().is_err());
-    }
-
-    /// Bytes of sampled rows, the same at every SIMD level and on every machine.
-    #[test]
-    fn bytes_of_sampled_rows_are_pinned() {
-        let hash = |features: FeatureSet| {
-            let config = DatasetConfig { features, rows_per_pixel: 4, ..sizes() };
-            let synth = if features == FeatureSet::Paper { SynthConfig::paper() } else { SynthConfig::wide() };
-            let rows = RowStream::new(7, &synth, &config, Purpose::Training).unwrap().take(2000, &|_| {}).unwrap();
-            let bytes: Vec<u8> = rows.features.iter().chain(&rows.targets).flat_map(|v| v.to_le_bytes()).collect();
-            crate::numeric::digest::sha256_hex([bytes.as_slice()])
-        };
-        insta::assert_snapshot!(format!("{}\n{}", hash(FeatureSet::Paper), hash(FeatureSet::Recentred6)));
-    }
-
-    fn streamed(change: impl FnOnce(&mut DatasetConfig)) -> Rows {
-        let mut config = DatasetConfig { features: FeatureSet::Recentred, rows_per_pixel: 4, ..sizes() };
-        change(&mut config);
-        RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training).unwrap().take(3000, &|_| {}).unwrap()
-    }
-
-    /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in [−1, 1].
-    #[test]
-    fn streamed_rows_are_in_their_domain() {
-        for rows in [streamed(|_| {}), streamed(|c| c.storage = Storage::F16), streamed(|c| c.storage = Storage::Unorm16)] {
-            assert!(rows.len() >= 3000 && rows.len() < 3004);
-            assert!(rows.pixels.chunk_by(|a, b| a == b).all(|of_one| of_one.len() <= 4));
-            assert!(rows.targets.iter().all(|t| (0.0..=1.0).contains(t)));
-            for row in rows.features.chunks_exact(7) {
-                assert!(
-                    row.iter().all(|f| f.is_finite()) && (-1.0..=1.0).contains(&row[0]) && row[3..].iter().all(|f| (-1.0..=1.0).contains(f)),
-                    "{row:?}"
-                );
-            }
-        }
-    }
-
-    /// Rounding to 16 bits moves the features of the same fragments, and not their answers.
-    #[test]
-    fn storage_is_what_moments_are_rounded_to() {
-        let all = |storage| streamed(|c| (c.rows_per_pixel, c.storage) = (0, storage));
-        let single = all(Storage::F32);
-        for storage in [Storage::F16, Storage::Unorm16] {
-            compare(&single, &all(storage));
-        }
-    }
-
-    fn compare(single: &Rows, half: &Rows) {
-        // Closed forms answer fewer fragments from coarser moments, so rows differ in number; compare pixels that have as many.
-        let of = |rows: &Rows| -> Vec<(u32, Vec<f32>, Vec<f32>)> {
-            let mut at = 0;
-            let pixels = rows.pixels.chunk_by(|a, b| a == b);
-            pixels
-                .map(|p| {
-                    let range = at..at + p.len();
-                    at = range.end;
-                    (p[0], rows.features[7 * range.start..7 * range.end].to_vec(), rows.targets[range].to_vec())
-                })
-                .collect()
-        };
-        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> = of(half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
-        let same: Vec<_> = of(single).into_iter().filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h))).collect();
-        assert!(same.len() > 30, "{}", same.len());
-        assert!(same.iter().all(|(_, t, half)| *t == half.1));
-        assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);
-    }
-
-    /// Rows that serve the image weigh alpha² times the fragments that they stand for; in a dataset the weights' mean is 1, and they survive its files.
-    #[test]
-    fn weights_serve_the_image() {
-        let rows = streamed(|c| c.weights = Weighting::Image);
-        assert_eq!(rows.weights.len(), rows.len());
-        assert!(rows.weights.iter().all(|w| w.is_finite() && *w >= 0.0));
-        assert!(streamed(|_| {}).weights.is_empty());
-        let config = DatasetConfig {
-            features: FeatureSet::Recentred,
-            training_pairs: 500,
-            validation_pairs: 100,
-            weights: Weighting::Image,
-            rows_per_pixel: 4,
-            ..sizes()
-        };
-        let dataset = build("w", 3, &SynthConfig::wide(), &config, &|_| {}).unwrap();
-        let mean = dataset.training.weights.iter().sum::<f32>() / dataset.training.len() as f32;
-        assert!((mean - 1.0).abs() < 1e-4 && dataset.validation.weights.is_empty());
-        let folder = tempfile::tempdir().unwrap();
-        crate::dataset::file::write(folder.path(), crate::numeric::file::Replace::No, &dataset).unwrap();
-        assert_eq!(crate::dataset::file::read_from(folder.path()).unwrap(), dataset);
-    }
-
-    #[test]
-    fn what_cannot_be_streamed_is_named() {
-        let error = |config: &DatasetConfig, synth: &SynthConfig| match RowStream::new(1, synth, config, Purpose::Training) {
-            Err(error) => error.to_string(),
-            Ok(mut stream) => stream.take(10, &|_| {}).unwrap_err().to_string(),
-        };
-        let deep = DatasetConfig { features: FeatureSet::DeepWeightedBlended, ..sizes() };
-        assert_eq!(
-            error(&deep, &SynthConfig::paper()),
-            "dataset.features = 'deep-weighted-blended': its pixels cannot be streamed; set dataset.refresh to 0"
-        );
-        let mut few = SynthConfig::paper();
-        few.pixels[0].fragments.max = 3;
-        let recentred = DatasetConfig { features: FeatureSet::Recentred, ..sizes() };
-        assert!(error(&recentred, &few).contains("none needs the network"));
-        let wrong = DatasetConfig { refresh: 1.5, ..sizes() };
-        assert_eq!(error(&wrong, &SynthConfig::paper()), "dataset.refresh = 1.5: must be from 0 to 1");
     }
 }

@@ -3,9 +3,11 @@
 pub mod blocks;
 pub mod build;
 pub mod file;
+pub mod stream;
 
 pub use blocks::{Batch, Blocks};
 pub use build::{DatasetConfig, DatasetError, build, build_from_lists, pixels_of};
+pub use stream::RowStream;
 
 use crate::features::FeatureSet;
 
@@ -24,7 +26,34 @@ pub struct Rows {
     pub pixels: Vec<u32>,
 }
 
+/// One row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row<'a> {
+    /// `[W]`.
+    pub features: &'a [f32],
+    /// The exact answer.
+    pub target: f32,
+    /// How much it counts in the loss.
+    pub weight: f32,
+}
+
 impl Rows {
+    /// No rows.
+    pub fn none(feature_set: FeatureSet) -> Self {
+        Self { feature_set, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() }
+    }
+
+    /// One of the rows.
+    ///
+    /// # Panics
+    /// If there are not as many.
+    #[inline]
+    pub fn row(&self, index: usize) -> Row<'_> {
+        let width = self.feature_set.width();
+        let weight = if self.weights.is_empty() { 1.0 } else { self.weights[index] };
+        Row { features: &self.features[index * width..][..width], target: self.targets[index], weight }
+    }
+
     /// Number of rows, N.
     pub fn len(&self) -> usize {
         self.targets.len()

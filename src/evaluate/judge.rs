@@ -1,5 +1,6 @@
 //! Methods against the A-buffer on one fragment list.
 
+use super::bins::{self, AlphaBin, CountBin};
 use super::{EvaluateError, FlipMap, Image, flip, image};
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{self, Context, Method};
@@ -37,6 +38,15 @@ pub struct MethodResult {
     pub seconds_accumulate: f64,
     /// Time of the weights of all fragments \[s\].
     pub seconds_weights: f64,
+    /// Stem of the names of its picture files; none where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub picture: Option<String>,
+    /// Errors by the number of fragments in a pixel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_fragments_per_pixel: Option<Vec<CountBin>>,
+    /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without fragments.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub by_alpha: Option<Vec<AlphaBin>>,
 }
 
 /// The exact answer for a fragment list, in f64.
@@ -66,6 +76,11 @@ impl<'a> Truth<'a> {
     /// The list.
     pub fn list(&self) -> &'a FragmentList {
         self.list
+    }
+
+    /// Linear colour behind everything.
+    pub fn background(&self) -> [f64; 3] {
+        self.background
     }
 
     /// The exact image.
@@ -99,6 +114,8 @@ impl<'a> Truth<'a> {
             }
         };
         let error = picture.as_ref().map(|(error, ..)| error);
+        let pair = stated.then_some((&weights[..], &self.transmittance[..]));
+        let images = picture.as_ref().zip(self.image.as_ref().ok()).map(|((_, image, _), exact)| (image, exact));
         let result = MethodResult {
             method: method.name(),
             bits_per_pixel: method.bits_per_pixel(),
@@ -112,6 +129,9 @@ impl<'a> Truth<'a> {
             seconds: seconds_accumulate + seconds_weights,
             seconds_accumulate,
             seconds_weights,
+            picture: None,
+            by_fragments_per_pixel: Some(bins::by_count(self.list, pair, images)),
+            by_alpha: pair.map(|(weights, exact)| bins::by_alpha(self.list, weights, exact)),
         };
         Ok(Judged { result, picture: picture.map(|(_, image, map)| (image, map)) })
     }
@@ -143,7 +163,8 @@ pub fn sort_by_error(results: &mut [MethodResult]) {
     results.sort_by(by_error);
 }
 
-pub(super) fn by_error(a: &MethodResult, b: &MethodResult) -> Ordering {
+/// The order of [`sort_by_error`].
+pub fn by_error(a: &MethodResult, b: &MethodResult) -> Ordering {
     let key = |r: &MethodResult| {
         let error = r.image_mse.or(r.transmittance_mse);
         // 0 for numbers, 1 for NaN, 2 for none.
@@ -255,6 +276,33 @@ pub(super) mod tests {
         assert!(nan.image_mse.unwrap().is_nan() && nan.flip_mean.unwrap().is_nan() && nan.image_nonfinite.unwrap() > 0);
     }
 
+    /// The bins of a method are of the list's own pixels and fragments; their weighted means are the whole's errors, to 1e-12 of them.
+    #[test]
+    fn bins_are_of_the_whole_list() {
+        let list = colored_list(20, 15);
+        let results = evaluate(&list, &methods(&[0.1]), Context::default(), [1.0; 3]).unwrap();
+        let [MethodResult { transmittance_mse: Some(t), image_mse: Some(i), by_fragments_per_pixel: Some(counts), by_alpha: Some(alphas), .. }] =
+            &results[..]
+        else {
+            panic!()
+        };
+        let n = list.len() as f64;
+        let of_counts: f64 = counts.iter().map(|b| b.fragments as f64 * b.transmittance_mse.unwrap_or(0.0)).sum::<f64>() / n;
+        let of_alphas: f64 = alphas.iter().map(|b| b.fragments as f64 * b.transmittance_mse.unwrap()).sum::<f64>() / n;
+        let of_image: f64 = counts.iter().map(|b| b.pixels as f64 * b.image_mse.unwrap()).sum::<f64>() / list.pixels() as f64;
+        for (found, whole) in [(of_counts, t), (of_alphas, t), (of_image, i)] {
+            assert!(*whole > 1e-6 && (found / whole - 1.0).abs() <= 1e-12, "{found} for {whole}");
+        }
+        // Discs of alpha 0.4, 0.7 and 0.9, up to three in a pixel.
+        assert_eq!(alphas.iter().map(|b| b.least_alpha).collect::<Vec<_>>(), [0.4, 0.7, 0.9]);
+        assert_eq!(counts.iter().map(|b| b.most_fragments_per_pixel).collect::<Vec<_>>(), [0, 1, 2, 3]);
+        // Weights that are no transmittances have errors of the image alone.
+        let alike = Truth::new(&list, [1.0; 3]).judge(&Alike, Context::default()).unwrap().result;
+        assert!(
+            alike.by_alpha.is_none() && alike.by_fragments_per_pixel.unwrap().iter().all(|b| b.transmittance_mse.is_none() && b.image_mse.is_some())
+        );
+    }
+
     /// A network with random weights is judged like any method; control: exact weights are far better.
     #[test]
     fn a_network_is_judged() {
@@ -313,10 +361,21 @@ pub(super) mod tests {
             seconds: 0.75,
             seconds_accumulate: 0.5,
             seconds_weights: 0.25,
+            picture: Some("neural-m".to_owned()),
+            by_fragments_per_pixel: Some(vec![CountBin {
+                least_fragments_per_pixel: 5,
+                most_fragments_per_pixel: 8,
+                pixels: 2,
+                fragments: 11,
+                transmittance_mse: Some(0.25),
+                image_mse: Some(f64::NAN),
+            }]),
+            by_alpha: Some(vec![AlphaBin { least_alpha: 0.1, most_alpha: 0.2, fragments: 11, transmittance_mse: Some(0.25) }]),
         };
         let text = serde_json::to_string_pretty(&result).unwrap();
         insta::assert_snapshot!(text);
         let back: MethodResult = serde_json::from_str(&text).unwrap();
-        assert_eq!(back, MethodResult { transmittance_worst_error: None, image_psnr_db: None, ..result });
+        let by_fragments_per_pixel = result.by_fragments_per_pixel.clone().map(|bins| vec![CountBin { image_mse: None, ..bins[0].clone() }]);
+        assert_eq!(back, MethodResult { transmittance_worst_error: None, image_psnr_db: None, by_fragments_per_pixel, ..result });
     }
 }

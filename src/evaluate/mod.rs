@@ -1,11 +1,14 @@
 //! Errors of methods against the exact answer, as numbers and as pictures.
 
+pub mod bins;
 pub mod flip;
+pub mod gpu;
 pub mod image;
 pub mod judge;
 pub mod picture;
 mod text;
 
+pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};
@@ -61,6 +64,9 @@ pub enum EvaluateError {
     /// A method cannot be applied to the list.
     #[error(transparent)]
     Method(#[from] MethodError),
+    /// The GPU did not draw it.
+    #[error(transparent)]
+    Gpu(#[from] crate::gpu::GpuError),
     /// A picture could not be written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -10,6 +10,8 @@ use prost::Message;
 pub const OPSET: i64 = 13;
 /// Version of the file format; 8 is the first that names opset 13 to 15.
 const IR_VERSION: i64 = 8;
+/// Key of the metadata that say which units were taken out.
+pub const PRUNED: &str = "nmt.pruned";
 /// Name of the graph's input.
 pub const INPUT: &str = "features";
 /// Name of the graph's output.
@@ -272,6 +274,7 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         ("nmt.seed", p.seed.map(|s| s.to_string())),
         ("nmt.dataset_hash", p.dataset_hash.clone()),
         ("nmt.transmittance_mse", p.transmittance_mse.map(|e| e.to_string())),
+        (PRUNED, p.pruned.as_ref().map(|pruned| pruned.to_text())),
     ];
     ModelProto {
         ir_version: IR_VERSION,

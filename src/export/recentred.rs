@@ -1,6 +1,6 @@
 //! Shader source of the recentred features: the twin of [`crate::features::recentred`], unrolled for the number of moments.
 
-use super::shader::{ENTRY, Language};
+use super::shader::{ENTRY, Language, Numbers, Precision};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
     ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
@@ -8,120 +8,182 @@ use crate::features::recentred::{
 };
 use std::fmt::Write;
 
-/// Writes lines of either language.
+/// Writes lines of any language.
 struct Writer {
     language: Language,
     text: String,
+    /// Blocks that are open inside of the function.
+    depth: usize,
+}
+
+/// How [`look`] hands over what is known without the network.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Hand {
+    /// As the last number of the features, everything computed and no branch taken.
+    Beside,
+    /// At once, before anything is computed that only others need.
+    Early,
 }
 
 impl Writer {
-    fn wgsl(&self) -> bool {
-        self.language == Language::Wgsl
-    }
-
     /// A constant that keeps its f32 bits.
     fn number(&self, x: f64) -> String {
         self.language.literal(x as f32)
+    }
+
+    fn new(language: Language) -> Self {
+        Self { language, text: String::new(), depth: 0 }
     }
 
     fn line(&mut self, line: &str) {
         let _ = writeln!(self.text, "{line}");
     }
 
+    /// A statement.
+    fn statement(&mut self, statement: &str) {
+        self.line(&format!("    {}{statement}", "    ".repeat(self.depth)));
+    }
+
+    /// Opens a block that runs under a condition.
+    fn open(&mut self, condition: &str) {
+        self.statement(&format!("if ({condition}) {{"));
+        self.depth += 1;
+    }
+
+    fn close(&mut self) {
+        self.depth -= 1;
+        self.statement("}");
+    }
+
+    /// Leaves the function under a condition, where answers are handed over early.
+    fn leave(&mut self, hand: Hand, condition: &str, value: &str) {
+        if hand == Hand::Early {
+            self.open(condition);
+            self.statement(&format!("return {value};"));
+            self.close();
+        }
+    }
+
     /// A value that does not change.
     fn bind(&mut self, name: &str, value: &str) {
-        let head = if self.wgsl() { "let" } else { "float" };
-        self.line(&format!("    {head} {name} = {value};"));
+        let head = if self.language == Language::Wgsl { "let" } else { "float" };
+        self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// A value that does.
     fn variable(&mut self, name: &str, value: &str) {
-        let head = if self.wgsl() { "var" } else { "float" };
-        self.line(&format!("    {head} {name} = {value};"));
+        let head = if self.language == Language::Wgsl { "var" } else { "float" };
+        self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// `condition ? yes : no`, both computed.
     fn select(&self, condition: &str, yes: &str, no: &str) -> String {
-        if self.wgsl() { format!("select({no}, {yes}, {condition})") } else { format!("({condition} ? {yes} : {no})") }
+        match self.language {
+            Language::Wgsl => format!("select({no}, {yes}, {condition})"),
+            Language::Glsl | Language::Hlsl => format!("({condition} ? {yes} : {no})"),
+        }
     }
 
-    fn array_type(&self, n: usize) -> String {
-        if self.wgsl() { format!("array<f32, {n}>") } else { format!("float[{n}]") }
-    }
-
-    fn array(&self, items: &[String]) -> String {
-        format!("{}({})", self.array_type(items.len()), items.join(", "))
-    }
-
-    /// Head of a function; a parameter with a number is an array of so many.
-    fn function(&mut self, name: &str, parameters: &[(&str, usize)], result: &str) {
-        let list: Vec<String> = parameters
+    /// Head of a function; a parameter with a number is an array of so many, and so is the result.
+    fn function(&mut self, name: &str, parameters: &[(&str, usize)], result: usize) {
+        let mut list: Vec<String> = parameters
             .iter()
-            .map(|&(name, n)| match (self.wgsl(), n) {
-                (true, 0) => format!("{name}: f32"),
-                (true, n) => format!("{name}: array<f32, {n}>"),
-                (false, 0) => format!("float {name}"),
-                (false, n) => format!("float {name}[{n}]"),
+            .map(|&(name, n)| match (self.language, n) {
+                (Language::Wgsl, 0) => format!("{name}: f32"),
+                (Language::Wgsl, n) => format!("{name}: array<f32, {n}>"),
+                (_, 0) => format!("float {name}"),
+                (_, n) => format!("float {name}[{n}]"),
             })
             .collect();
+        let kind = match (self.language, result) {
+            (Language::Wgsl, 0) => "f32".to_owned(),
+            (Language::Wgsl, n) => format!("array<f32, {n}>"),
+            (_, 0) => "float".to_owned(),
+            (Language::Glsl, n) => format!("float[{n}]"),
+            (Language::Hlsl, n) => {
+                list.push(format!("out float result[{n}]"));
+                "void".to_owned()
+            }
+        };
         let list = list.join(", ");
-        let line = if self.wgsl() { format!("fn {name}({list}) -> {result} {{") } else { format!("{result} {name}({list}) {{") };
-        self.line(&line);
+        self.line(&if self.language == Language::Wgsl { format!("fn {name}({list}) -> {kind} {{") } else { format!("{kind} {name}({list}) {{") });
     }
 
-    fn scalar(&self) -> &'static str {
-        if self.wgsl() { "f32" } else { "float" }
+    /// Ends a function with a number.
+    fn give(&mut self, value: &str) {
+        self.statement(&format!("return {value};"));
+        self.line("}");
+    }
+
+    /// Ends a function with an array.
+    fn give_array(&mut self, items: &[String]) {
+        match self.language {
+            Language::Wgsl => self.statement(&format!("return array<f32, {}>({});", items.len(), items.join(", "))),
+            Language::Glsl => self.statement(&format!("return float[{}]({});", items.len(), items.join(", "))),
+            Language::Hlsl => items.iter().enumerate().for_each(|(i, item)| self.statement(&format!("result[{i}] = {item};"))),
+        }
+        self.line("}");
+    }
+
+    /// Ends a function with what the network answers to features.
+    fn give_answer(&mut self, features: &[String]) {
+        let (n, list) = (features.len(), features.join(", "));
+        match self.language {
+            Language::Wgsl => self.give(&format!("min({ENTRY}(array<f32, {n}>({list})), 1.0)")),
+            Language::Glsl => self.give(&format!("min({ENTRY}(float[{n}]({list})), 1.0)")),
+            Language::Hlsl => {
+                self.statement(&format!("float features[{n}] = {{ {list} }};"));
+                self.give(&format!("min({ENTRY}(features), 1.0)"));
+            }
+        }
     }
 }
 
 /// What the fragment's own data and what pass 1 left are called, in the order of parameters.
 const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
 
+/// Constant of what storage does to moments.
+pub const ROUNDING: &str = "NMT_ROUNDING";
+
 /// Functions of pass 1, and the one that looks at a fragment in pass 2.
 pub fn source(language: Language, set: FeatureSet) -> String {
     let (k, width) = (set.moments(), set.width());
-    let mut w = Writer { language, text: String::new() };
-    let scalar = w.scalar();
+    let mut w = Writer::new(language);
     w.line("// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.");
-    w.function("nmt_absorbance", &[("alpha", 0)], scalar);
+    w.function("nmt_absorbance", &[("alpha", 0)], 0);
     w.bind("faint", "alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))))");
     let chosen = w.select("alpha < 0.03", "faint", "-log(max(1.0 - alpha, 0.000045399931))");
-    w.line(&format!("    return {chosen};\n}}\n"));
+    w.give(&chosen);
 
-    w.line("// ln(a / b), as accurate relative to itself where a is near b as elsewhere.");
-    w.function("nmt_log_ratio", &[("a", 0), ("b", 0)], scalar);
+    w.line("\n// ln(a / b), as accurate relative to itself where a is near b as elsewhere.");
+    w.function("nmt_log_ratio", &[("a", 0), ("b", 0)], 0);
     w.bind("s", "(a - b) / (a + b)");
     w.bind("q", "s * s");
-    let chosen =
-        w.select("abs(s) < 0.2", "(s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))", "log(a / b)");
-    w.line(&format!("    return {chosen};\n}}\n"));
+    let chosen = w.select("abs(s) < 0.2", "(s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))", "log(a / b)");
+    w.give(&chosen);
 
-    w.line("// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view depth,");
-    w.line("// these may be v0 and v1 in both passes: then no pixel is too thin for its moments.");
-    w.function("nmt_moment_depth", &[("v", 0), ("v0", 0), ("v1", 0)], scalar);
+    w.line("\n// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view");
+    w.line("// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.");
+    w.function("nmt_moment_depth", &[("v", 0), ("v0", 0), ("v1", 0)], 0);
     w.bind("warped", "2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0");
     let chosen = w.select("v1 > v0", "clamp(warped, -1.0, 1.0)", "0.0");
-    w.line(&format!("    return {chosen};\n}}\n"));
+    w.give(&chosen);
 
-    w.line(&format!("// Pass 1: what a fragment at moment depth z adds to b1..b{k}; to b0 it adds its absorbance, to n it adds 1."));
-    let moments = w.array_type(k);
-    w.function("nmt_moments", &[("z", 0), ("absorbance", 0)], &moments);
+    w.line(&format!("\n// Pass 1: what a fragment at moment depth z adds to b1..b{k}; to b0 it adds its absorbance, to n it adds 1."));
+    w.function("nmt_moments", &[("z", 0), ("absorbance", 0)], k);
     own_moments(&mut w, k);
     let items: Vec<String> = (1..=k).map(|i| format!("own{i}")).collect();
-    let items = w.array(&items);
-    w.line(&format!("    return {items};\n}}\n"));
+    w.give_array(&items);
 
-    w.line("// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
+    w.line("\n// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.");
+    w.text += &Numbers { language, precision: Precision::F32 }.scalar_constant(ROUNDING, f32::EPSILON);
+
+    w.line("\n// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
     w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
-    w.line("// known without the network, else -1.");
-    w.line("// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.");
-    let unit = w.number(f32::EPSILON.into());
-    let constant = if w.wgsl() { format!("const NMT_ROUNDING: f32 = {unit};") } else { format!("const float NMT_ROUNDING = {unit};") };
-    w.line(&constant);
-    let result = w.array_type(width + 1);
+    w.line("// known without the network, else -1. No branch is taken.");
     let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
-    w.function("nmt_recentred", &parameters, &result);
-    look(&mut w, k);
+    w.function("nmt_recentred", &parameters, width + 1);
+    look(&mut w, k, Hand::Beside);
     w.text
 }
 
@@ -132,9 +194,13 @@ fn own_moments(w: &mut Writer, k: usize) {
     }
 }
 
-fn look(w: &mut Writer, k: usize) {
+fn look(w: &mut Writer, k: usize, hand: Hand) {
     let most = w.number(MOST_ABSORBANCE);
     w.bind("others", &format!("clamp(b0 - absorbance, 0.0, {most})"));
+    w.leave(hand, "v == nearest", "1.0");
+    w.leave(hand, "others <= 1e-6 * b0", "1.0");
+    // However coarse the exponential, no answer is above 1.
+    w.leave(hand, "v == farthest", "min(exp(-others), 1.0)");
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
     let least = w.number(LEAST_HALF_RANGE);
     w.bind("h", &format!("max(0.5 * (z_farthest - z_nearest), {least})"));
@@ -147,7 +213,7 @@ fn look(w: &mut Writer, k: usize) {
     for pass in 1..=k {
         for i in (pass..=k).rev() {
             let before = if i == 1 { "c".to_owned() } else { format!("c * m{}", i - 1) };
-            w.line(&format!("    m{i} = m{i} - {before};"));
+            w.statement(&format!("m{i} = m{i} - {before};"));
         }
     }
     w.bind("h1", "1.0 / h");
@@ -156,7 +222,7 @@ fn look(w: &mut Writer, k: usize) {
     w.bind("h4", "h2 * h2");
     for i in 1..=k {
         let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
-        w.line(&format!("    m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
+        w.statement(&format!("m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
     }
     // In thin pixels view depth says more than moment depth.
     w.bind("range", "farthest - nearest");
@@ -169,16 +235,20 @@ fn look(w: &mut Writer, k: usize) {
     // Three fragments, and four.
     w.bind("reach", "1.0 + 2.0 * abs(c) / h");
     let epsilon = w.number(f32::EPSILON.into());
-    w.bind("e1", "NMT_ROUNDING * reach * b0 * per_b0");
+    w.bind("e1", &format!("{ROUNDING} * reach * b0 * per_b0"));
+    w.bind("per_n", "1.0 / n");
+    let (usual, deviation) = (w.number(USUAL_NOISE), by_count(w, MEAN_DEVIATION));
+    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
+    shrunk(w, "mean0", "m1", "0.0", "noise1", &deviation);
+    w.bind("share3", "clamp(0.5 * (1.0 - mean0), 0.0, 1.0)");
+    w.leave(hand, "n == 3.0", "min(exp(-(others * share3)), 1.0)");
+    if hand == Hand::Early {
+        w.open("n == 4.0");
+    }
     w.bind("e2", "e1 * reach");
     w.bind("inner", "1.0 - m2");
     w.bind("safe_inner", "max(inner, 1e-30)");
     w.bind("u", "clamp((m1 - m3) / safe_inner, -1.0, 1.0)");
-    let (usual, deviation) = (w.number(USUAL_NOISE), by_count(w, MEAN_DEVIATION));
-    w.bind("per_n", "1.0 / n");
-    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
-    shrunk(w, "mean0", "m1", "0.0", "noise1", &deviation);
-    w.bind("share3", "clamp(0.5 * (1.0 - mean0), 0.0, 1.0)");
     w.bind("u_error", "(e1 + e2 * reach + abs(u) * e2) / safe_inner");
     let sign = w.select("u < (z - c) / h", "-1.0", "1.0");
     w.bind("side", &sign);
@@ -194,21 +264,25 @@ fn look(w: &mut Writer, k: usize) {
     let tolerance = w.number(CLOSED_FORM_TOLERANCE);
     // One condition a line: short-circuit operators would branch.
     w.variable("known", "exp(-(others * share4))");
-    for (condition, value) in [
-        (format!("error * steepest > {tolerance}"), "-1.0"),
-        ("inner <= 0.0".to_owned(), "-1.0"),
-        ("gap <= 0.0".to_owned(), "-1.0"),
-        ("n != 4.0".to_owned(), "-1.0"),
-        ("n == 3.0".to_owned(), "exp(-(others * share3))"),
-        ("v == farthest".to_owned(), "exp(-others)"),
-        ("others <= 1e-6 * b0".to_owned(), "1.0"),
-        ("v == nearest".to_owned(), "1.0"),
-    ] {
-        let chosen = w.select(&condition, value, "known");
-        w.line(&format!("    known = {chosen};"));
+    let mut rules = vec![(format!("error * steepest > {tolerance}"), "-1.0"), ("inner <= 0.0".to_owned(), "-1.0"), ("gap <= 0.0".to_owned(), "-1.0")];
+    if hand == Hand::Beside {
+        rules.extend([
+            ("n != 4.0".to_owned(), "-1.0"),
+            ("n == 3.0".to_owned(), "exp(-(others * share3))"),
+            ("v == farthest".to_owned(), "exp(-others)"),
+            ("others <= 1e-6 * b0".to_owned(), "1.0"),
+            ("v == nearest".to_owned(), "1.0"),
+        ]);
     }
-    // However coarse the exponential.
-    w.line("    known = min(known, 1.0);");
+    for (condition, value) in rules {
+        let chosen = w.select(&condition, value, "known");
+        w.statement(&format!("known = {chosen};"));
+    }
+    w.statement("known = min(known, 1.0);");
+    if hand == Hand::Early {
+        w.leave(hand, "known >= 0.0", "known");
+        w.close();
+    }
 
     // The measure, and what is left of it without its ends; what rounding has made noise of goes over to what is expected.
     let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
@@ -285,9 +359,13 @@ fn look(w: &mut Writer, k: usize) {
                 .collect();
         }
     }
-    items.push("known".to_owned());
-    let items = w.array(&items);
-    w.line(&format!("    return {items};\n}}"));
+    match hand {
+        Hand::Beside => {
+            items.push("known".to_owned());
+            w.give_array(&items);
+        }
+        Hand::Early => w.give_answer(&items),
+    }
 }
 
 /// a + b/n.
@@ -304,20 +382,12 @@ fn shrunk(w: &mut Writer, name: &str, value: &str, expected: &str, noise: &str, 
 
 /// The function that a renderer calls in pass 2: known answers where there are, the network where there are none.
 pub fn answer(language: Language, set: FeatureSet) -> String {
-    let (k, width) = (set.moments(), set.width());
-    let mut w = Writer { language, text: String::new() };
-    w.line(
-        "\n// Pass 2: transmittance in front of a fragment; the network runs only where nothing simpler is exact. Parameters as of nmt_recentred.",
-    );
+    let k = set.moments();
+    let mut w = Writer::new(language);
+    w.line("\n// Pass 2: transmittance in front of a fragment. Parameters as of nmt_recentred, and the same numbers; but what is known without the network returns");
+    w.line("// before the features are computed, so that groups of threads in which all is known skip them and the network.");
     let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
-    let scalar = w.scalar();
-    w.function("nmt_fragment_transmittance", &parameters, scalar);
-    let call = format!("nmt_recentred({}, b)", LOOK.join(", "));
-    let looked = if w.wgsl() { format!("    let looked = {call};") } else { format!("    float looked[{}] = {call};", width + 1) };
-    w.line(&looked);
-    w.line(&format!("    if (looked[{width}] >= 0.0) {{\n        return looked[{width}];\n    }}"));
-    let features: Vec<String> = (0..width).map(|i| format!("looked[{i}]")).collect();
-    let features = w.array(&features);
-    w.line(&format!("    return min({ENTRY}({features}), 1.0);\n}}"));
+    w.function("nmt_fragment_transmittance", &parameters, 0);
+    look(&mut w, k, Hand::Early);
     w.text
 }

@@ -1,8 +1,10 @@
-//! Shader source: WGSL and GLSL, unrolled scalars or packed vectors, through one emitter.
+//! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
 
-use super::recentred;
+use super::{ExportError, recentred};
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE, MomentDepthKind};
+use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
+use crate::numeric::quantise::round_f16;
 use std::fmt::Write;
 
 /// A shading language.
@@ -12,6 +14,8 @@ pub enum Language {
     Wgsl,
     /// OpenGL's and Vulkan's: GLSL 4.50 and GLSL ES 3.00 read it.
     Glsl,
+    /// Direct3D's, shader model 5 and later.
+    Hlsl,
 }
 
 /// How weights are laid out.
@@ -23,6 +27,26 @@ pub enum Form {
     Packed,
 }
 
+/// What weights and activations are kept in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// f32 throughout.
+    F32,
+    /// Weights and activations of hidden layers in f16; features, the last layer and the answer in f32.
+    F16,
+}
+
+/// What tells one shader source from another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kind {
+    /// Language.
+    pub language: Language,
+    /// Layout of the weights.
+    pub form: Form,
+    /// Precision of the hidden layers.
+    pub precision: Precision,
+}
+
 /// The function that answers; it takes the array that `nmt_features` returns.
 pub const ENTRY: &str = "nmt_transmittance";
 
@@ -31,8 +55,10 @@ impl Language {
         let text = match (self, set) {
             (Self::Wgsl, FeatureSet::Paper) => include_str!("../features/paper.wgsl"),
             (Self::Glsl, FeatureSet::Paper) => include_str!("../features/paper.glsl"),
+            (Self::Hlsl, FeatureSet::Paper) => include_str!("../features/paper.hlsl"),
             (Self::Wgsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.wgsl"),
             (Self::Glsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.glsl"),
+            (Self::Hlsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.hlsl"),
             (_, set @ (FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)) => return recentred::source(self, set),
         };
         text.to_owned()
@@ -41,49 +67,8 @@ impl Language {
     /// A literal that parses back to the same bits: the shortest decimal that names the f32.
     pub(super) fn literal(self, x: f32) -> String {
         match self {
-            Self::Wgsl => format!("{x:?}f"),
+            Self::Wgsl | Self::Hlsl => format!("{x:?}f"),
             Self::Glsl => format!("{x:?}"),
-        }
-    }
-
-    fn vec4(self) -> &'static str {
-        match self {
-            Self::Wgsl => "vec4<f32>",
-            Self::Glsl => "vec4",
-        }
-    }
-
-    fn mat4(self) -> &'static str {
-        match self {
-            Self::Wgsl => "mat4x4<f32>",
-            Self::Glsl => "mat4",
-        }
-    }
-
-    /// `const NAME: TYPE = value;` of a scalar.
-    fn scalar_constant(self, name: &str, value: f32) -> String {
-        match self {
-            Self::Wgsl => format!("const {name}: f32 = {};\n", self.literal(value)),
-            Self::Glsl => format!("const float {name} = {};\n", self.literal(value)),
-        }
-    }
-
-    /// A constant array; items are written several to a line.
-    fn array_constant(self, name: &str, element: &str, items: &[String], per_line: usize) -> String {
-        let n = items.len();
-        let mut text = match self {
-            Self::Wgsl => format!("const {name} = array<{element}, {n}>(\n"),
-            Self::Glsl => format!("const {element} {name}[{n}] = {element}[{n}](\n"),
-        };
-        let lines: Vec<String> = items.chunks(per_line).map(|line| format!("    {}", line.join(", "))).collect();
-        text += &lines.join(",\n");
-        text + "\n);\n"
-    }
-
-    fn element(self) -> &'static str {
-        match self {
-            Self::Wgsl => "f32",
-            Self::Glsl => "float",
         }
     }
 
@@ -91,49 +76,217 @@ impl Language {
     fn bind(self, kind: &str, name: &str, value: &str) -> String {
         match self {
             Self::Wgsl => format!("    let {name} = {value};\n"),
-            Self::Glsl => format!("    {kind} {name} = {value};\n"),
+            Self::Glsl | Self::Hlsl => format!("    {kind} {name} = {value};\n"),
         }
     }
 
     fn function(self, width: usize) -> String {
         match self {
             Self::Wgsl => format!("fn {ENTRY}(f: array<f32, {width}>) -> f32 {{\n"),
-            Self::Glsl => format!("float {ENTRY}(float f[{width}]) {{\n"),
+            Self::Glsl | Self::Hlsl => format!("float {ENTRY}(float f[{width}]) {{\n"),
+        }
+    }
+}
+
+/// Numbers of one precision in one language.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Numbers {
+    pub language: Language,
+    pub precision: Precision,
+}
+
+impl Numbers {
+    fn scalar(self) -> &'static str {
+        match (self.language, self.precision) {
+            (Language::Wgsl, Precision::F32) => "f32",
+            (Language::Wgsl, Precision::F16) => "f16",
+            (_, Precision::F32) => "float",
+            (_, Precision::F16) => "half",
         }
     }
 
-    fn splat(self, x: f32) -> String {
-        format!("{}({})", self.vec4(), self.literal(x))
+    fn vec4(self) -> String {
+        match self.language {
+            Language::Wgsl => format!("vec4<{}>", self.scalar()),
+            Language::Glsl => "vec4".to_owned(),
+            Language::Hlsl => format!("{}4", self.scalar()),
+        }
     }
+
+    fn mat4(self) -> String {
+        match self.language {
+            Language::Wgsl => format!("mat4x4<{}>", self.scalar()),
+            Language::Glsl => "mat4".to_owned(),
+            Language::Hlsl => format!("{}4x4", self.scalar()),
+        }
+    }
+
+    /// A literal of the number as this precision keeps it.
+    fn literal(self, x: f32) -> String {
+        match self.precision {
+            Precision::F32 => self.language.literal(x),
+            Precision::F16 => format!("{:?}h", shortest_half(x)),
+        }
+    }
+
+    fn vector(self, v: [f32; 4]) -> String {
+        format!("{}({})", self.vec4(), v.map(|x| self.literal(x)).join(", "))
+    }
+
+    fn splat(self, x: f32) -> String {
+        match self.language {
+            Language::Wgsl | Language::Glsl => format!("{}({})", self.vec4(), self.literal(x)),
+            Language::Hlsl => self.vector([x; 4]),
+        }
+    }
+
+    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but HLSL's rows.
+    fn product(self, block: &str, activations: &str) -> String {
+        match self.language {
+            Language::Wgsl | Language::Glsl => format!("{block} * {activations}"),
+            Language::Hlsl => format!("mul({activations}, {block})"),
+        }
+    }
+
+    /// `const NAME: TYPE = value;` of a scalar.
+    pub fn scalar_constant(self, name: &str, value: f32) -> String {
+        match self.language {
+            Language::Wgsl => format!("const {name}: {} = {};\n", self.scalar(), self.literal(value)),
+            Language::Glsl => format!("const float {name} = {};\n", self.literal(value)),
+            Language::Hlsl => format!("static const {} {name} = {};\n", self.scalar(), self.literal(value)),
+        }
+    }
+
+    /// A constant array; items are written several to a line.
+    fn array_constant(self, name: &str, element: &str, items: &[String], per_line: usize) -> String {
+        let n = items.len();
+        let (head, end) = match self.language {
+            Language::Wgsl => (format!("const {name} = array<{element}, {n}>(\n"), "\n);\n"),
+            Language::Glsl => (format!("const {element} {name}[{n}] = {element}[{n}](\n"), "\n);\n"),
+            Language::Hlsl => (format!("static const {element} {name}[{n}] = {{\n"), "\n};\n"),
+        };
+        let lines: Vec<String> = items.chunks(per_line).map(|line| format!("    {}", line.join(", "))).collect();
+        head + &lines.join(",\n") + end
+    }
+}
+
+/// The f32 with the fewest digits that rounds to the same f16.
+fn shortest_half(x: f32) -> f32 {
+    let half = round_f16(x.into());
+    let candidates = (0..8).filter_map(|digits| format!("{half:.digits$e}").parse::<f32>().ok());
+    candidates.into_iter().find(|&c| round_f16(c.into()) == half).unwrap_or(half as f32)
+}
+
+/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
+/// bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
+pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
+    match set {
+        FeatureSet::Paper | FeatureSet::DeepWeightedBlended => (1e-1, 2e-3),
+        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (1e-1, 1e-3),
+    }
+}
+
+/// Greatest finite f16.
+const MOST_HALF: f64 = 65504.0;
+
+/// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered and rounded, none overflows.
+///
+/// # Errors
+/// [`ExportError::Half`] where a weight does not fit, or features of the usual size could overflow.
+pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
+    let refused = |reason: String| ExportError::Half { network: mlp.name().to_owned(), reason };
+    let hidden = &mlp.layers()[..mlp.layers().len() - 1];
+    for (index, dense) in hidden.iter().enumerate() {
+        if let Some(w) = dense.weights.iter().chain(&dense.biases).find(|w| f64::from(w.abs()) > MOST_HALF) {
+            return Err(refused(format!("layer {} holds the weight {w}, and f16 ends at {MOST_HALF}", index + 1)));
+        }
+    }
+    // Half of the range is left to rounding.
+    let fits = |limit: f64| {
+        let mut low = vec![-limit; mlp.layers()[0].inputs()];
+        let mut high = vec![limit; low.len()];
+        for dense in hidden {
+            let (mut next, mut greatest) = (Vec::new(), 0.0f64);
+            for o in 0..dense.outputs() {
+                let bias = f64::from(dense.biases[o]);
+                let (mut least, mut most) = (bias.min(0.0), bias.max(0.0));
+                for i in 0..dense.inputs() {
+                    let w = f64::from(dense.weight(i, o));
+                    let (a, b) = (w * low[i], w * high[i]);
+                    least += a.min(b).min(0.0);
+                    most += a.max(b).max(0.0);
+                }
+                greatest = greatest.max(most).max(-least);
+                next.push(most);
+            }
+            if greatest > MOST_HALF / 2.0 {
+                return false;
+            }
+            low = vec![0.0; next.len()];
+            high = next;
+        }
+        true
+    };
+    // Recentred features are of the order of 1, with logarithms up to 10; the others count fragments and absorbance.
+    let least = if mlp.feature_set().moment_depth() == MomentDepthKind::Log { 4 } else { 6 };
+    let power = (least..=14).rev().find(|&p| fits(2f64.powi(p)));
+    power
+        .map(|p| 2f32.powi(p))
+        .ok_or_else(|| refused(format!("features of {} could overflow its sums, and f16 ends at {MOST_HALF}; export it in f32", 2f64.powi(least))))
 }
 
 /// A whole include file.
-pub fn source(mlp: &Mlp, language: Language, form: Form) -> String {
-    let mut text = header(mlp, form);
-    text += &language.feature_source(mlp.feature_set());
+///
+/// # Errors
+/// [`ExportError::Half`] where the network does not fit into f16; [`ExportError::NoHalf`] for GLSL in f16.
+pub fn source(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
+    let limit = match (kind.precision, kind.language) {
+        (Precision::F32, _) => None,
+        (Precision::F16, Language::Glsl) => return Err(ExportError::NoHalf("glsl")),
+        (Precision::F16, _) => Some(half_limit(mlp)?),
+    };
+    let network = Network { mlp, kind, limit };
+    let mut text = comment(&header(mlp, kind, limit));
+    if kind.language == Language::Wgsl && kind.precision == Precision::F16 {
+        text += "enable f16;\n\n";
+    }
+    text += &kind.language.feature_source(mlp.feature_set());
     text.push('\n');
-    match form {
-        Form::Plain => plain(mlp, language, &mut text),
-        Form::Packed => packed(mlp, language, &mut text),
+    match kind.form {
+        Form::Plain => network.plain(&mut text),
+        Form::Packed => network.packed(&mut text),
     }
     if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
-        text += &recentred::answer(language, mlp.feature_set());
+        text += &recentred::answer(kind.language, mlp.feature_set());
     }
-    text
+    Ok(text)
 }
 
-/// The comment that says what the file is, what to feed it and what to expect.
-fn header(mlp: &Mlp, form: Form) -> String {
+/// Lines as a comment, and an empty line behind it.
+pub(super) fn comment(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("//{}{}\n", if line.is_empty() { "" } else { " " }, one_line(line))).collect::<String>() + "\n"
+}
+
+/// What the file is, what to feed it and what to expect.
+pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
     let set = mlp.feature_set();
     let mut lines = vec![
         format!("Neural moment transparency: network '{}', {}, {} multiply-adds.", mlp.name(), mlp.shape(), mlp.multiply_adds()),
-        match form {
+        match kind.form {
             Form::Plain => "Form: unrolled scalars. Weights are [in][out]; every index is a literal.".to_owned(),
             Form::Packed => "Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.".to_owned(),
         },
-        String::new(),
-        format!("Features, set '{}', in this order: {}.", set.name(), set.columns().join(", ")),
     ];
+    if kind.language == Language::Hlsl {
+        lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
+    }
+    if let Some(limit) = limit {
+        lines.extend(half_lines(kind.language, limit, half_bounds(set)));
+    }
+    if let Some(pruned) = &mlp.provenance.pruned {
+        lines.extend(pruned_lines(pruned, kind.form));
+    }
+    lines.extend([String::new(), format!("Features, set '{}', in this order: {}.", set.name(), set.columns().join(", "))]);
     lines.extend(set.description().iter().map(|&l| l.to_owned()));
     lines.push(String::new());
     let p = &mlp.provenance;
@@ -156,7 +309,36 @@ fn header(mlp: &Mlp, form: Form) -> String {
         }
         _ => "Measured error: none recorded; 'nmt predict' measures it on fragment lists.".to_owned(),
     });
-    lines.iter().map(|line| format!("//{}{}\n", if line.is_empty() { "" } else { " " }, one_line(line))).collect::<String>() + "\n"
+    lines
+}
+
+/// What is to be known of half precision.
+fn half_lines(language: Language, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
+    let mut lines = vec![
+        "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are f32.".to_owned(),
+        format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
+        format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
+    ];
+    if language == Language::Hlsl {
+        lines.push("DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise.".to_owned());
+    }
+    lines
+}
+
+/// What the header's line that says which units were taken out begins with.
+pub const PRUNED: &str = "Pruned: ";
+
+/// What is to be known of units that were taken out.
+fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
+    let bits = if form == Form::Plain { ", to the bit" } else { ", but for the order of sums" };
+    let region = match (pruned.count(), pruned.rows) {
+        (0, _) => "Every unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
+        (n, 0) => format!("These {n} units cannot fire, or nothing listens to them: exact for all features{bits}."),
+        (n, rows) => format!(
+            "These {n} units fired on none of {rows} random rows of the training distribution, or cannot. Where none of them would fire, answers are exact{bits}; elsewhere anything may happen."
+        ),
+    };
+    [format!("{PRUNED}{}.", pruned.to_text()), region]
 }
 
 /// Text from a file, made safe inside a line comment.
@@ -172,47 +354,6 @@ pub(crate) fn biases_name(index: usize) -> String {
     format!("NMT_B{}", index + 1)
 }
 
-fn plain(mlp: &Mlp, language: Language, text: &mut String) {
-    let literals = |values: &[f32]| -> Vec<String> { values.iter().map(|&v| language.literal(v)).collect() };
-    for (index, dense) in mlp.layers().iter().enumerate() {
-        *text += &language.array_constant(&weights_name(index), language.element(), &literals(&dense.weights), 8);
-        *text += &language.array_constant(&biases_name(index), language.element(), &literals(&dense.biases), 8);
-    }
-    let _ = write!(text, "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}", language.function(mlp.feature_set().width()));
-    let last = mlp.layers().len() - 1;
-    for (index, dense) in mlp.layers().iter().enumerate() {
-        let input = |i: usize| if index == 0 { format!("f[{i}]") } else { format!("h{index}_{i}") };
-        for o in 0..dense.outputs() {
-            let mut sum = format!("{}[{o}]", biases_name(index));
-            for i in 0..dense.inputs() {
-                let _ = write!(sum, " + {}[{}] * {}", weights_name(index), i * dense.outputs() + o, input(i));
-            }
-            *text += &match index == last {
-                true => language.bind("float", "logit", &sum),
-                false => language.bind("float", &format!("h{}_{o}", index + 1), &format!("max({sum}, 0.0)")),
-            };
-        }
-    }
-    *text += &ending(mlp, language);
-}
-
-/// From the logit to the answer, without overflow; what [`Mlp::forward`] does.
-fn ending(mlp: &Mlp, language: Language) -> String {
-    // 1/(1 + e^−x)
-    let sigmoid = "1.0 / (1.0 + exp(min(-logit, 80.0)))";
-    match mlp.feature_set().answer() {
-        Answer::Sigmoid => format!("    return {sigmoid};\n}}\n"),
-        Answer::Fraction { column, offset } => {
-            let absorbance = language.bind(
-                "float",
-                "absorbance",
-                &format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset)),
-            );
-            format!("{absorbance}    return exp(-min(absorbance * ({sigmoid}), 80.0));\n}}\n")
-        }
-    }
-}
-
 /// Number of vec4 that hold n values.
 fn groups(n: usize) -> usize {
     n.div_ceil(4)
@@ -223,7 +364,7 @@ pub(crate) fn biases_are_folded(dense: &Dense) -> bool {
     !dense.inputs().is_multiple_of(4)
 }
 
-/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, column by column; missing ones are 0, and the biases stand in the first missing input's column.
+/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, input by input; missing ones are 0, and the biases stand at the first missing input.
 pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
     std::array::from_fn(|column| {
         std::array::from_fn(|row| {
@@ -237,66 +378,194 @@ pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
     })
 }
 
-fn packed(mlp: &Mlp, language: Language, text: &mut String) {
-    let vec4 = |v: [f32; 4]| format!("{}({})", language.vec4(), v.map(|x| language.literal(x)).join(", "));
-    let last = mlp.layers().len() - 1;
-    for (index, dense) in mlp.layers().iter().enumerate() {
-        let (inputs, outputs) = (groups(dense.inputs()), groups(dense.outputs()));
-        if index == last {
-            // One output: a row of weights, four inputs to a vector.
-            let rows: Vec<String> = (0..inputs).map(|i| vec4(block(dense, 0, i).map(|column| column[0]))).collect();
-            *text += &language.array_constant(&weights_name(index), language.vec4(), &rows, 1);
-        } else {
-            let blocks: Vec<String> = (0..outputs)
-                .flat_map(|g| (0..inputs).map(move |i| (g, i)))
-                .map(|(g, i)| format!("{}({})", language.mat4(), block(dense, g, i).map(vec4).join(", ")))
-                .collect();
-            *text += &language.array_constant(&weights_name(index), language.mat4(), &blocks, 1);
-        }
-        if !biases_are_folded(dense) {
-            *text += &if index == last {
-                language.scalar_constant(&biases_name(index), dense.biases[0])
-            } else {
-                let biases: Vec<String> =
-                    (0..outputs).map(|g| vec4(std::array::from_fn(|row| dense.biases.get(4 * g + row).copied().unwrap_or(0.0)))).collect();
-                language.array_constant(&biases_name(index), language.vec4(), &biases, 1)
-            };
-        }
+/// A network about to become source.
+struct Network<'a> {
+    mlp: &'a Mlp,
+    kind: Kind,
+    /// Greatest absolute feature that hidden layers in f16 see.
+    limit: Option<f32>,
+}
+
+impl Network<'_> {
+    fn numbers(&self, precision: Precision) -> Numbers {
+        Numbers { language: self.kind.language, precision }
     }
-    let _ = write!(text, "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}", language.function(mlp.feature_set().width()));
-    let width = mlp.feature_set().width();
-    for i in 0..groups(width) {
-        let lane = |c: usize| match 4 * i + c {
-            input if input < width => format!("f[{input}]"),
-            // The constant that carries folded biases, then padding.
-            input => language.literal(if input == width { 1.0 } else { 0.0 }),
-        };
-        *text += &language.bind(language.vec4(), &format!("h0_{i}"), &format!("{}({})", language.vec4(), [0, 1, 2, 3].map(lane).join(", ")));
+
+    fn last(&self) -> usize {
+        self.mlp.layers().len() - 1
     }
-    for (index, dense) in mlp.layers().iter().enumerate() {
-        let inputs = groups(dense.inputs());
-        let weights = weights_name(index);
-        let folded = biases_are_folded(dense);
-        if index == last {
-            let terms = (0..inputs).map(|i| format!("dot({weights}[{i}], h{index}_{i})"));
-            let sum: Vec<String> = (!folded).then(|| biases_name(index)).into_iter().chain(terms).collect();
-            *text += &language.bind("float", "logit", &sum.join(" + "));
-            continue;
-        }
-        for g in 0..groups(dense.outputs()) {
-            let terms = (0..inputs).map(|i| format!("{weights}[{}] * h{index}_{i}", g * inputs + i));
-            let sum: Vec<String> = (!folded).then(|| format!("{}[{g}]", biases_name(index))).into_iter().chain(terms).collect();
-            let mut value = format!("max({}, {})", sum.join(" + "), language.splat(0.0));
-            let filled = dense.outputs() - 4 * g;
-            if filled < 4 {
-                // The next layer finds its biases' constant 1 in the first free lane.
-                let constant: [f32; 4] = std::array::from_fn(|lane| if lane == filled { 1.0 } else { 0.0 });
-                value = format!("{value} + {}", vec4(constant));
+
+    /// Numbers of a layer's weights: the last layer is f32 always.
+    fn of_layer(&self, index: usize) -> Numbers {
+        self.numbers(if index == self.last() { Precision::F32 } else { self.kind.precision })
+    }
+
+    /// An activation of the layer before as the layer wants it.
+    fn converted(&self, index: usize, kind: impl Fn(Numbers) -> String, value: String) -> String {
+        let before = if index == 0 { self.numbers(Precision::F32) } else { self.of_layer(index - 1) };
+        if before == self.of_layer(index) { value } else { format!("{}({value})", kind(self.of_layer(index))) }
+    }
+
+    fn head(&self, text: &mut String) {
+        let language = self.kind.language;
+        let _ = write!(
+            text,
+            "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}",
+            language.function(self.mlp.feature_set().width())
+        );
+    }
+
+    fn plain(&self, text: &mut String) {
+        let language = self.kind.language;
+        for (index, dense) in self.mlp.layers().iter().enumerate() {
+            let numbers = self.of_layer(index);
+            for (name, values) in [(weights_name(index), &dense.weights), (biases_name(index), &dense.biases)] {
+                let literals: Vec<String> = values.iter().map(|&v| numbers.literal(v)).collect();
+                *text += &numbers.array_constant(&name, numbers.scalar(), &literals, 8);
             }
-            *text += &language.bind(language.vec4(), &format!("h{}_{g}", index + 1), &value);
+        }
+        self.head(text);
+        for (index, dense) in self.mlp.layers().iter().enumerate() {
+            let numbers = self.of_layer(index);
+            let single = |n: Numbers| n.scalar().to_owned();
+            let mut input = |i: usize| {
+                let clamped = self.limit.filter(|_| index == 0 && index != self.last());
+                let value = match (index, clamped) {
+                    (0, Some(limit)) => format!("clamp(f[{i}], {}, {})", language.literal(-limit), language.literal(limit)),
+                    (0, None) => format!("f[{i}]"),
+                    _ => format!("h{index}_{i}"),
+                };
+                let converted = self.converted(index, single, value.clone());
+                if converted == value {
+                    return value;
+                }
+                // Once a value, not once a term.
+                let name = format!("x{index}_{i}");
+                *text += &language.bind(numbers.scalar(), &name, &converted);
+                name
+            };
+            let inputs: Vec<String> = (0..dense.inputs()).map(&mut input).collect();
+            for o in 0..dense.outputs() {
+                let mut sum = format!("{}[{o}]", biases_name(index));
+                for (i, input) in inputs.iter().enumerate() {
+                    // What a weight of 0 adds changes no bit.
+                    if dense.weight(i, o) != 0.0 {
+                        let _ = write!(sum, " + {}[{}] * {input}", weights_name(index), i * dense.outputs() + o);
+                    }
+                }
+                *text += &match index == self.last() {
+                    true => language.bind("float", "logit", &sum),
+                    false => language.bind(numbers.scalar(), &format!("h{}_{o}", index + 1), &format!("max({sum}, {})", self.zero(numbers))),
+                };
+            }
+        }
+        *text += &self.ending();
+    }
+
+    /// 0 beside a scalar.
+    fn zero(&self, numbers: Numbers) -> String {
+        // An untyped 0.0 is an f32 in every language.
+        if numbers.precision == Precision::F32 { "0.0".to_owned() } else { numbers.literal(0.0) }
+    }
+
+    /// From the logit to the answer, without overflow; what [`Mlp::forward`] does.
+    fn ending(&self) -> String {
+        let language = self.kind.language;
+        // 1/(1 + e^−x)
+        let sigmoid = "1.0 / (1.0 + exp(min(-logit, 80.0)))";
+        match self.mlp.feature_set().answer() {
+            Answer::Sigmoid => format!("    return {sigmoid};\n}}\n"),
+            Answer::Fraction { column, offset } => {
+                let absorbance = language.bind(
+                    "float",
+                    "absorbance",
+                    &format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset)),
+                );
+                format!("{absorbance}    return exp(-min(absorbance * ({sigmoid}), 80.0));\n}}\n")
+            }
         }
     }
-    *text += &ending(mlp, language);
+
+    /// Constants of the packed form.
+    fn packed_constants(&self, text: &mut String) {
+        for (index, dense) in self.mlp.layers().iter().enumerate() {
+            let numbers = self.of_layer(index);
+            let (inputs, outputs) = (groups(dense.inputs()), groups(dense.outputs()));
+            if index == self.last() {
+                // One output: a row of weights, four inputs to a vector.
+                let rows: Vec<String> = (0..inputs).map(|i| numbers.vector(block(dense, 0, i).map(|column| column[0]))).collect();
+                *text += &numbers.array_constant(&weights_name(index), &numbers.vec4(), &rows, 1);
+            } else {
+                let blocks: Vec<String> = (0..outputs)
+                    .flat_map(|g| (0..inputs).map(move |i| (g, i)))
+                    .map(|(g, i)| format!("{}({})", numbers.mat4(), block(dense, g, i).map(|v| numbers.vector(v)).join(", ")))
+                    .collect();
+                *text += &numbers.array_constant(&weights_name(index), &numbers.mat4(), &blocks, 1);
+            }
+            if !biases_are_folded(dense) {
+                *text += &if index == self.last() {
+                    numbers.scalar_constant(&biases_name(index), dense.biases[0])
+                } else {
+                    let bias = |at: usize| dense.biases.get(at).copied().unwrap_or(0.0);
+                    let biases: Vec<String> = (0..outputs).map(|g| numbers.vector(std::array::from_fn(|row| bias(4 * g + row)))).collect();
+                    numbers.array_constant(&biases_name(index), &numbers.vec4(), &biases, 1)
+                };
+            }
+        }
+    }
+
+    fn packed(&self, text: &mut String) {
+        let language = self.kind.language;
+        self.packed_constants(text);
+        self.head(text);
+        let width = self.mlp.feature_set().width();
+        let single = self.numbers(Precision::F32);
+        for i in 0..groups(width) {
+            let lane = |c: usize| match 4 * i + c {
+                input if input < width => format!("f[{input}]"),
+                // The constant that carries folded biases, then padding.
+                input => single.literal(if input == width { 1.0 } else { 0.0 }),
+            };
+            let mut value = format!("{}({})", single.vec4(), [0, 1, 2, 3].map(lane).join(", "));
+            if let Some(limit) = self.limit.filter(|_| self.last() > 0) {
+                value = format!("clamp({value}, {}, {})", single.splat(-limit), single.splat(limit));
+            }
+            let value = self.converted(0, Numbers::vec4, value);
+            *text += &language.bind(&self.of_layer(0).vec4(), &format!("h0_{i}"), &value);
+        }
+        for (index, dense) in self.mlp.layers().iter().enumerate() {
+            let numbers = self.of_layer(index);
+            let inputs = groups(dense.inputs());
+            let weights = weights_name(index);
+            let folded = biases_are_folded(dense);
+            if index == self.last() {
+                let input = |i: usize| match (index, format!("h{index}_{i}")) {
+                    (0, name) => name,
+                    (_, name) => self.converted(index, Numbers::vec4, name),
+                };
+                let terms = (0..inputs).map(|i| format!("dot({weights}[{i}], {})", input(i)));
+                let sum: Vec<String> = (!folded).then(|| biases_name(index)).into_iter().chain(terms).collect();
+                *text += &language.bind("float", "logit", &sum.join(" + "));
+                continue;
+            }
+            for g in 0..groups(dense.outputs()) {
+                // A block of nothing but zeros adds nothing.
+                let used = (0..inputs).filter(|&i| block(dense, g, i).iter().flatten().any(|&w| w != 0.0));
+                let terms = used.map(|i| numbers.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
+                let sum: Vec<String> = (!folded).then(|| format!("{}[{g}]", biases_name(index))).into_iter().chain(terms).collect();
+                let zero = numbers.splat(0.0);
+                let mut value = if sum.is_empty() { zero } else { format!("max({}, {zero})", sum.join(" + ")) };
+                let filled = dense.outputs() - 4 * g;
+                if filled < 4 {
+                    // The next layer finds its biases' constant 1 in the first free lane.
+                    let constant: [f32; 4] = std::array::from_fn(|lane| if lane == filled { 1.0 } else { 0.0 });
+                    value = format!("{value} + {}", numbers.vector(constant));
+                }
+                *text += &language.bind(&numbers.vec4(), &format!("h{}_{g}", index + 1), &value);
+            }
+        }
+        *text += &self.ending();
+    }
 }
 
 #[cfg(test)]
@@ -310,10 +579,49 @@ mod tests {
     fn text_of_a_tiny_network() {
         let mut mlp = random_mlp(&[3], 1);
         mlp.provenance = Provenance { source: "a test\nwith a line break \\".to_owned(), seed: Some(1), ..Provenance::default() };
-        for (language, name) in [(Language::Wgsl, "wgsl"), (Language::Glsl, "glsl")] {
-            insta::assert_snapshot!(format!("plain_{name}"), source(&mlp, language, Form::Plain));
-            insta::assert_snapshot!(format!("packed_{name}"), source(&mlp, language, Form::Packed));
+        for (language, name) in [(Language::Wgsl, "wgsl"), (Language::Glsl, "glsl"), (Language::Hlsl, "hlsl")] {
+            for (form, form_name) in [(Form::Plain, "plain"), (Form::Packed, "packed")] {
+                for (precision, suffix) in [(Precision::F32, ""), (Precision::F16, "_f16")] {
+                    match source(&mlp, Kind { language, form, precision }) {
+                        Ok(text) => insta::assert_snapshot!(format!("{form_name}_{name}{suffix}"), text),
+                        Err(error) => assert!(language == Language::Glsl && precision == Precision::F16, "{error}"),
+                    }
+                }
+            }
         }
+    }
+
+    /// Half precision is refused where it could overflow, and its literals round to the weights' halves.
+    #[test]
+    fn what_does_not_fit_into_halves_is_refused() {
+        let network = |first: f32, second: f32| {
+            let layers = vec![
+                Dense::new(7, 2, vec![first; 14], vec![0.0; 2]).unwrap(),
+                Dense::new(2, 1, vec![second; 2], vec![0.0]).unwrap(),
+                Dense::new(1, 1, vec![1e30], vec![0.0]).unwrap(),
+            ];
+            Mlp::new("n", FeatureSet::Recentred, layers, Provenance::default()).unwrap()
+        };
+        // 7 · 16 · 100 · 2 < 32752, and twice as much is not.
+        assert_eq!(half_limit(&network(1.0, 100.0)).unwrap(), 16.0);
+        assert_eq!(half_limit(&network(0.01, 1.0)).unwrap(), 16384.0);
+        let message = |mlp: &Mlp| half_limit(mlp).unwrap_err().to_string();
+        assert!(message(&network(10.0, 100.0)).contains("could overflow"));
+        assert!(message(&network(7e4, 0.0)).contains("70000"));
+    }
+
+    #[test]
+    fn half_literals_are_short_and_round_to_the_half() {
+        let mut rng = crate::numeric::rng::stream(1, 95, 0);
+        let mut digits = 0;
+        for _ in 0..10_000 {
+            let x = libm::exp2f(rand::RngExt::random_range(&mut rng, -20.0..15.9)) * if rand::RngExt::random(&mut rng) { 1.0 } else { -1.0 };
+            let short = shortest_half(x);
+            assert_eq!(round_f16(short.into()), round_f16(x.into()));
+            digits += format!("{short:?}").len();
+        }
+        assert!(digits < 90_000, "{digits}");
+        assert_eq!((shortest_half(0.1), shortest_half(0.0), shortest_half(-1e-9)), (0.1, 0.0, -0.0));
     }
 
     #[test]

@@ -2,7 +2,10 @@
 
 pub mod deep_weighted_blended;
 pub mod paper;
+pub mod passes;
 pub mod recentred;
+pub mod visible;
+mod wide;
 
 use crate::moments::storage::through_unorm16;
 use crate::numeric::lanes::{self, LANES, Lanes};
@@ -250,6 +253,8 @@ pub struct Sampled {
     pub alpha: Vec<f32>,
     /// Rows of the last pixel.
     pub of_pixel: usize,
+    /// Absorbance in front of each of them, sixteen partial sums.
+    in_front: Vec<Lanes>,
     /// View depths of the pixel's fragments; beyond the last, infinity.
     view_z: Vec<Lanes>,
     /// Opacities; beyond the last, 0.
@@ -277,6 +282,43 @@ impl Sampled {
         let Self { view_z, alpha_lanes, depth, absorbance, .. } = self;
         dispatch!(Level::new(), simd => see_lanes(simd, to_depth, view_z, alpha_lanes, depth, absorbance));
     }
+}
+
+impl Sampled {
+    /// A fragment as both passes see it.
+    fn seen(&self, i: usize) -> Seen<f32> {
+        Seen { view_z: at(&self.view_z, i), z: at(&self.depth, i), absorbance: at(&self.absorbance, i) }
+    }
+
+    /// Makes rows of at most `most` of n fragments, chosen at random among those of which `row` makes one; it appends the features, or says that there are none.
+    fn choose(&mut self, n: usize, most: usize, rng: &mut Stream, row: impl Fn(usize, &mut Self) -> bool) {
+        self.order.clear();
+        self.order.extend(0..n as u32);
+        self.in_front.clear();
+        for i in 0..n {
+            if self.in_front.len() == most {
+                break;
+            }
+            if most < n {
+                self.order.swap(i, rng.random_range(i..n));
+            }
+            let chosen = self.order[i] as usize;
+            if row(chosen, self) {
+                let mut partial = Lanes::ZERO;
+                let before = at(&self.view_z, chosen);
+                dispatch!(Level::new(), simd => partial.store(in_front_lanes(simd, &self.view_z, &self.absorbance, before)));
+                self.in_front.push(partial);
+                self.alpha.push(at(&self.alpha_lanes, chosen));
+            }
+        }
+        self.of_pixel = self.in_front.len();
+        transmittances(&self.in_front, &mut self.targets);
+    }
+}
+
+/// Number i of numbers that stand in lanes.
+fn at(lanes: &[Lanes], i: usize) -> f32 {
+    lanes[i / LANES].0[i % LANES]
 }
 
 /// From view depth to another, sixteen at once.
@@ -309,25 +351,62 @@ fn see_lanes<S: Simd>(simd: S, to_depth: &impl ToDepth, view_z: &[Lanes], alpha:
     }
 }
 
-/// Absorbance in front of a view depth. The sum runs over the lanes first, in the same order at every SIMD level.
-fn in_front(view_z: &[Lanes], absorbance: &[Lanes], before: f32) -> f32 {
-    let mut sums = [0.0f32; LANES];
-    for (v, a) in view_z.iter().zip(absorbance) {
-        for (sum, (&v, &a)) in sums.iter_mut().zip(v.0.iter().zip(&a.0)) {
-            *sum += if v < before { a } else { 0.0 };
-        }
-    }
-    sums.iter().sum()
+/// Absorbance in front of a view depth, in sixteen partial sums.
+#[inline(always)]
+fn in_front_lanes<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], before: f32) -> f32x16<S> {
+    let (zero, before) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, before));
+    let parts = view_z.iter().zip(absorbance).map(|(v, a)| v.load(simd).simd_lt(before).select(a.load(simd), zero));
+    parts.fold(zero, |sum, part| sum + part)
 }
 
-/// e^−x of every number.
-fn exp_of_minus(values: &mut [f32]) {
-    for chunk in values.chunks_mut(LANES) {
-        let mut lanes = Lanes::ZERO;
-        lanes.0[..chunk.len()].copy_from_slice(chunk);
-        dispatch!(Level::new(), simd => lanes.store(lanes::exp(simd, -lanes.load(simd))));
-        chunk.copy_from_slice(&lanes.0[..chunk.len()]);
+/// The transmittances of optical depths that are given in sixteen partial sums each, added up from the first to the last.
+fn transmittances(partial: &[Lanes], out: &mut Vec<f32>) {
+    for partial in partial.chunks(LANES) {
+        let mut depth = Lanes::ZERO;
+        for lane in 0..LANES {
+            for (sum, partial) in depth.0.iter_mut().zip(partial) {
+                *sum += partial.0[lane];
+            }
+        }
+        dispatch!(Level::new(), simd => depth.store(lanes::exp(simd, -depth.load(simd))));
+        out.extend_from_slice(&depth.0[..partial.len()]);
     }
+}
+
+/// [`PixelSums`] of n fragments and the depths of their ends: the same numbers to the bit as [`PixelSums::add`] gives, added up in the same order.
+#[inline(always)]
+fn sums_lanes<S: Simd, const K: usize>(simd: S, n: usize, view_z: &[Lanes], depth: &[Lanes], absorbance: &[Lanes]) -> (PixelSums<f32, K>, [f32; 2]) {
+    let splat = |x: f32| f32x16::splat(simd, x);
+    let (infinity, none) = (splat(f32::INFINITY), splat(f32::NEG_INFINITY));
+    let mut sums = PixelSums { count: n as u32, ..PixelSums::default() };
+    let (mut nearest, mut farthest) = (infinity, none);
+    for (index, ((v, z), a)) in view_z.iter().zip(depth).zip(absorbance).enumerate() {
+        // What fills the last vector up lies at infinity.
+        let v = v.load(simd);
+        nearest = nearest.min(v);
+        farthest = farthest.max(v.simd_lt(infinity).select(v, none));
+        let z = z.load(simd);
+        let mut term = a.load(simd);
+        let mut terms = [Lanes::ZERO; K];
+        for terms in &mut terms {
+            term *= z;
+            terms.store(term);
+        }
+        for lane in 0..(n - index * LANES).min(LANES) {
+            sums.b0 += a.0[lane];
+            for (b, terms) in sums.b.iter_mut().zip(&terms) {
+                *b += terms.0[lane];
+            }
+        }
+    }
+    (sums.nearest, sums.farthest) = (nearest.reduce_min(), farthest.reduce_max());
+    // Depths grow with view depths, and equal ones are equal.
+    let depth_at = |end: f32| {
+        let matches = view_z.iter().zip(depth).map(|(v, z)| v.load(simd).simd_eq(splat(end)).select(z.load(simd), none));
+        matches.fold(none, |found, z| found.max(z)).reduce_max()
+    };
+    let ends = [depth_at(sums.nearest), depth_at(sums.farthest)];
+    (sums, ends)
 }
 
 /// What a feature set says of some fragments.
@@ -470,23 +549,11 @@ impl Extractor {
     fn sample_paper(&self, pixel: Pixel<'_>, planes: CameraPlanes, most: usize, rng: &mut Stream, rows: &mut Sampled) {
         let n = pixel.len();
         rows.see(pixel, &planes);
-        rows.of_pixel = n.min(most);
-        rows.order.clear();
-        rows.order.extend(0..n as u32);
-        let Sampled { view_z, alpha_lanes, depth, absorbance, order, features, targets, alpha, .. } = rows;
-        let b = paper::describe_lanes(n, depth, absorbance);
-        let at = |lanes: &[Lanes], i: usize| lanes[i / LANES].0[i % LANES];
-        let first = targets.len();
-        for i in 0..n.min(most) {
-            if most < n {
-                order.swap(i, rng.random_range(i..n));
-            }
-            let chosen = order[i] as usize;
-            features.extend_from_slice(&[at(depth, chosen), n as f32, b[0], b[1], b[2], b[3], b[4]]);
-            targets.push(in_front(view_z, absorbance, at(view_z, chosen)));
-            alpha.push(at(alpha_lanes, chosen));
-        }
-        exp_of_minus(&mut targets[first..]);
+        let b = paper::describe_lanes(n, &mut rows.depth, &rows.absorbance);
+        rows.choose(n, most, rng, |i, Sampled { depth, features, .. }| {
+            features.extend_from_slice(&[at(depth, i), n as f32, b[0], b[1], b[2], b[3], b[4]]);
+            true
+        });
     }
 
     fn sample_of<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, most: usize, rng: &mut Stream, rows: &mut Sampled) {
@@ -502,37 +569,24 @@ impl Extractor {
                 rows.depth[i / LANES].0[i % LANES] = warp.moment(ViewZ(v.into())).0 as f32;
             }
         }
-        let Sampled { view_z, alpha_lanes, depth, absorbance, order, .. } = rows;
-        let at = |lanes: &[Lanes], i: usize| lanes[i / LANES].0[i % LANES];
-        let seen = |i: usize| Seen { view_z: at(view_z, i), z: at(depth, i), absorbance: at(absorbance, i) };
-        let mut sums = PixelSums::<f32, K>::default();
-        let mut ends = [0.0; 2];
-        for i in 0..n {
-            self.add(&mut sums, &mut ends, seen(i));
-        }
+        let Sampled { view_z, depth, absorbance, .. } = &*rows;
+        let (mut sums, ends) = if self.storage == Storage::F16 {
+            // Every sum is rounded.
+            let (mut sums, mut ends) = (PixelSums::default(), [0.0; 2]);
+            (0..n).for_each(|i| self.add(&mut sums, &mut ends, rows.seen(i)));
+            (sums, ends)
+        } else {
+            dispatch!(Level::new(), simd => sums_lanes::<_, K>(simd, n, view_z, depth, absorbance))
+        };
         self.keep(&mut sums);
-        order.clear();
-        order.extend(0..n as u32);
-        rows.of_pixel = 0;
-        for i in 0..n {
-            if rows.of_pixel == most {
-                break;
-            }
-            if most < n {
-                order.swap(i, rng.random_range(i..n));
-            }
-            let chosen = order[i] as usize;
-            if let Known::Features(first, measure) = sums.look_at_stored(seen(chosen), ends, self.storage.rounding()) {
+        rows.choose(n, most, rng, |i, rows| match sums.look_at_stored(rows.seen(i), ends, self.storage.rounding()) {
+            Known::Features(first, measure) => {
                 rows.features.extend_from_slice(&first);
                 rows.features.extend_from_slice(&measure);
-                rows.targets.push(in_front(view_z, absorbance, at(view_z, chosen)));
-                rows.alpha.push(at(alpha_lanes, chosen));
-                rows.of_pixel += 1;
+                true
             }
-        }
-        // Optical depths become transmittances together.
-        let first = rows.targets.len() - rows.of_pixel;
-        exp_of_minus(&mut rows.targets[first..]);
+            Known::Transmittance(_) => false,
+        });
     }
 
     /// What the storage keeps of whole sums.

@@ -353,30 +353,73 @@ impl Padded {
                     column[at / LANES].0[at % LANES] = feature;
                 }
             }
-            let mut first = 0;
-            for (index, s) in sizes.windows(2).enumerate() {
-                let (x, y) = work[first..].split_at_mut(s[0]);
-                let (w, b) = &self.layers[index];
-                hidden(simd, s[0], s[1], w, b, x, y);
-                first += s[0];
-            }
-            let (w, b) = &self.layers[sizes.len() - 1];
-            let h = &work[first..first + sizes[sizes.len() - 1]];
-            for (v, out) in out.chunks_mut(LANES).enumerate() {
-                let s = lanes::sigmoid(simd, logit(simd, w, b[0], h, v));
-                let value = match self.answer {
-                    Answer::Sigmoid => s,
-                    Answer::Fraction { column, offset } => {
-                        let splat = |x: f32| f32x16::splat(simd, x);
-                        let log = work[column][v].load(simd).min(splat(MOST_LOG_ABSORBANCE));
-                        let absorbance = (lanes::exp(simd, log) - splat(offset)).max(splat(0.0));
-                        lanes::exp(simd, -(absorbance * s))
-                    }
-                };
-                let mut lanes = Lanes::ZERO;
-                lanes.store(value);
-                out.copy_from_slice(&lanes.0[..out.len()]);
-            }
+            self.tile(simd, sizes, out, work);
+        }
+    }
+
+    /// Answers of one tile, whose features are the first rows of `work`.
+    #[inline(always)]
+    fn tile<S: Simd>(&self, simd: S, sizes: &[usize], out: &mut [f32], work: &mut [Row]) {
+        let mut first = 0;
+        for (index, s) in sizes.windows(2).enumerate() {
+            let (x, y) = work[first..].split_at_mut(s[0]);
+            let (w, b) = &self.layers[index];
+            hidden(simd, s[0], s[1], w, b, x, y);
+            first += s[0];
+        }
+        let (w, b) = &self.layers[sizes.len() - 1];
+        let h = &work[first..first + sizes[sizes.len() - 1]];
+        for (v, out) in out.chunks_mut(LANES).enumerate() {
+            let s = lanes::sigmoid(simd, logit(simd, w, b[0], h, v));
+            let value = match self.answer {
+                Answer::Sigmoid => s,
+                Answer::Fraction { column, offset } => {
+                    let splat = |x: f32| f32x16::splat(simd, x);
+                    let log = work[column][v].load(simd).min(splat(MOST_LOG_ABSORBANCE));
+                    let absorbance = (lanes::exp(simd, log) - splat(offset)).max(splat(0.0));
+                    lanes::exp(simd, -(absorbance * s))
+                }
+            };
+            let mut lanes = Lanes::ZERO;
+            lanes.store(value);
+            out.copy_from_slice(&lanes.0[..out.len()]);
+        }
+    }
+}
+
+/// A network made ready to answer tiles of rows that stand column by column, without turning them around: [`Mlp::predict`] for those who make rows in lanes.
+pub struct Tiled {
+    network: Padded,
+    level: Level,
+}
+
+impl Tiled {
+    /// Most rows of a tile.
+    pub const ROWS: usize = TILE * LANES;
+
+    /// The network.
+    pub fn new(mlp: &Mlp) -> Self {
+        Self { network: Padded::new(mlp), level: Level::new() }
+    }
+
+    /// What one thread works in.
+    pub fn work(&self) -> Vec<Row> {
+        vec![ZEROS; self.network.sizes.iter().sum()]
+    }
+
+    /// Answers to `out.len()` rows, the same to the bit as [`Mlp::predict`]'s.
+    ///
+    /// # Shapes
+    /// `work`: as [`Self::work`] made it, the features in its first W rows; `out`: at most [`Self::ROWS`].
+    ///
+    /// # Panics
+    /// If either is too short or too long.
+    pub fn answer(&self, work: &mut [Row], out: &mut [f32]) {
+        assert!(out.len() <= Self::ROWS, "at most {} rows", Self::ROWS);
+        match self.network.sizes[..] {
+            [7, 32, 16] => dispatch!(self.level, simd => self.network.tile(simd, &[7, 32, 16], out, work)),
+            [7, 16, 8] => dispatch!(self.level, simd => self.network.tile(simd, &[7, 16, 8], out, work)),
+            _ => dispatch!(self.level, simd => self.network.tile(simd, &self.network.sizes, out, work)),
         }
     }
 }
@@ -450,6 +493,13 @@ pub(crate) mod tests {
                 for n in [0, 1, 17, 255, 257] {
                     assert_eq!(mlp.predict(&rows[..7 * n]), all[..n]);
                 }
+                let tiled = Tiled::new(&mlp);
+                let (mut work, mut tile) = (tiled.work(), vec![f32::NAN; 250]);
+                for (i, &x) in rows[..7 * 250].iter().enumerate() {
+                    work[i % 7][i / 7 / LANES].0[i / 7 % LANES] = x;
+                }
+                tiled.answer(&mut work, &mut tile);
+                assert_eq!(tile, all[..250]);
             }
         }
     }

@@ -3,9 +3,10 @@
 pub mod file;
 pub mod kernel;
 pub mod mlp;
+pub mod simplify;
 
 pub use file::ModelError;
-pub use mlp::{Dense, Mlp, ShapeError};
+pub use mlp::{Dense, Mlp, ShapeError, Tiled};
 
 use serde::{Deserialize, Serialize};
 
@@ -48,4 +49,10 @@ pub struct Provenance {
     /// Greatest absolute error of T over the same pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transmittance_worst_error: Option<f64>,
+    /// What was taken out of the network that was trained.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pruned: Option<simplify::Pruned>,
+    /// How it was made of another network, from what, and where that holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub derived: Option<serde_json::Value>,
 }

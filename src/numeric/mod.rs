@@ -3,6 +3,7 @@
 
 pub mod complex;
 pub mod digest;
+pub mod doubles;
 pub mod file;
 pub mod lanes;
 pub mod npy;

@@ -2,14 +2,57 @@
 
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
-use crate::features::{Extractor, FeatureSet, Look};
-use crate::model::{Mlp, file};
-use crate::pixel::FragmentList;
+use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
+use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, MomentFrame, Storage};
+use crate::model::kernel::Row;
+use crate::model::{Mlp, Tiled, file};
+use crate::numeric::lanes::LANES;
+use crate::pixel::{FragmentList, abuffer};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
+use std::time::Instant;
+
+/// Which fragments a network is run for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Skip {
+    /// All; what is known exactly then replaces its answers.
+    None,
+    /// Those whose answer is used: the same transmittances to the bit.
+    #[default]
+    Exact,
+    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see [`visible`](crate::features::visible).
+    Visible,
+}
+
+impl Skip {
+    /// What it switches on.
+    pub fn switches(self) -> Switches {
+        match self {
+            Self::None => Switches::default(),
+            Self::Exact => Switches { ends: true, short: true, ..Switches::default() },
+            Self::Visible => Switches { ends: true, short: true, faint: true, hidden: true },
+        }
+    }
+}
 
 /// A network as a transparency method.
 pub struct Neural {
     mlp: Mlp,
+    switches: Switches,
+    storage: Storage,
+    frame: MomentFrame,
+}
+
+/// A network's answers, and what was done for them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Answered {
+    /// Transmittance (or the like) of every fragment, in the order of the list.
+    pub transmittance: Vec<f32>,
+    /// What decided each.
+    pub classes: Vec<Class>,
+    /// How many fragments each class has, and how long it took.
+    pub tally: Tally,
 }
 
 /// The method by its name, `neural:MODEL`; it is in no list of all methods, since it needs a file.
@@ -23,43 +66,164 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 }
 
 impl Neural {
-    /// The method that asks this network.
+    /// The method that asks this network where its answer is used.
     pub fn new(mlp: Mlp) -> Self {
-        Self { mlp }
+        Self { mlp, switches: Skip::default().switches(), storage: Storage::default(), frame: MomentFrame::default() }
+    }
+
+    /// The same, asking about other fragments.
+    pub fn with_skip(self, skip: Skip) -> Self {
+        self.with_switches(skip.switches())
+    }
+
+    /// The same, each way of skipping switched on or off.
+    pub fn with_switches(self, switches: Switches) -> Self {
+        Self { switches, ..self }
+    }
+
+    /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
+    pub fn with_storage(self, storage: Storage) -> Self {
+        Self { storage, ..self }
+    }
+
+    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
+    /// and farthest fragment.
+    pub fn with_frame(self, frame: MomentFrame) -> Self {
+        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log { frame } else { MomentFrame::Scene };
+        Self { frame, ..self }
+    }
+
+    /// The frame of its moments.
+    pub fn frame(&self) -> MomentFrame {
+        self.frame
+    }
+
+    /// The network.
+    pub fn mlp(&self) -> &Mlp {
+        &self.mlp
     }
 
     fn error(&self, source: crate::pixel::DepthError) -> MethodError {
         MethodError::Depth { method: self.name(), source }
     }
 
-    /// The network's answer (transmittance, or the like) for every fragment of a list, in its order; features in f64 rounded to f32, forward pass in f32.
+    /// The network's answer (transmittance, or the like) for every fragment of a list, in its order.
     ///
     /// `progress` is told how many fragments are done.
     ///
     /// # Errors
     /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth range is none.
     pub fn transmittance(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Vec<f32>, MethodError> {
-        // Pixels are taken in runs of about this many fragments, so that their features stay a few megabytes.
+        self.answers(list, context, progress).map(|answered| answered.transmittance)
+    }
+
+    /// [`Self::transmittance`] with what decided each answer, and how long both passes took.
+    ///
+    /// Recentred features are made in f32, sixteen at once ([`Passes`](crate::features::passes::Passes)); the others in f64, rounded to f32. The forward pass is f32.
+    ///
+    /// # Errors
+    /// As [`Self::transmittance`].
+    pub fn answers(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Answered, MethodError> {
+        // Pixels are taken in runs of about this many fragments, so that what is made of them stays a few megabytes.
         const RUN: u64 = 1 << 18;
         let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range).map_err(|e| self.error(e))?;
+        let extractor = extractor.with_storage(self.storage).with_frame(self.frame);
+        let passes = extractor.passes();
+        let tiled = Tiled::new(&self.mlp);
         let offsets = list.offsets();
-        let mut out = Vec::with_capacity(list.len());
+        let mut answered = Answered { transmittance: vec![0.0; list.len()], classes: vec![Class::Network; list.len()], tally: Tally::default() };
         let mut first = 0;
         while first < list.pixels() {
             let end = offsets.partition_point(|&o| o < offsets[first] + RUN).clamp(first + 1, list.pixels());
-            let Look { known, features } = extractor.list(list, first..end).map_err(|e| self.error(e))?;
-            let mut asked = self.mlp.predict(&features).into_iter();
-            out.extend(known.into_iter().map(|t| if t.is_nan() { asked.next().expect("one answer a question") } else { t }));
+            let fragments = offsets[first] as usize..offsets[end] as usize;
+            let (out, classes) = (&mut answered.transmittance[fragments.clone()], &mut answered.classes[fragments.clone()]);
+            let tally = match passes {
+                Some(passes) => passes.run(list, first..end, self.switches, || Tile { tiled: &tiled, work: tiled.work() }, out, classes),
+                None => self.ask_all(list, first..end, &extractor, out, classes).map_err(|e| self.error(e))?,
+            };
+            answered.tally.add(&tally);
             first = end;
-            progress(out.len() as u64);
+            progress(fragments.end as u64);
         }
-        Ok(out)
+        Ok(answered)
+    }
+
+    /// Features that are made pixel by pixel: the network is asked about all fragments that they do not know, but for pixels that hardly show.
+    fn ask_all(
+        &self,
+        list: &FragmentList,
+        pixels: std::ops::Range<usize>,
+        extractor: &Extractor,
+        out: &mut [f32],
+        classes: &mut [Class],
+    ) -> Result<Tally, crate::pixel::DepthError> {
+        let start = Instant::now();
+        let Look { known, mut features } = extractor.list(list, pixels.clone())?;
+        let seconds_pass_1 = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let offsets = list.offsets();
+        let width = extractor.set().width();
+        for p in pixels.clone() {
+            let own = (offsets[p] - offsets[pixels.start]) as usize..(offsets[p + 1] - offsets[pixels.start]) as usize;
+            // Both mean colours lie in [0, 1], whatever the weights: the image changes by at most 1 − e^−b_0.
+            let b0 = if self.switches.faint { abuffer::total_absorbance(list.pixel(p)) } else { f64::INFINITY };
+            for i in own {
+                (out[i], classes[i]) = match known[i] {
+                    t if !t.is_nan() => (t, Class::Known),
+                    _ if b0 <= LEAST_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
+                    _ => (f32::NAN, Class::Network),
+                };
+            }
+        }
+        let (mut kept, mut row) = (0, 0);
+        for (i, class) in classes.iter().enumerate() {
+            if known[i].is_nan() {
+                if *class == Class::Network {
+                    features.copy_within(row * width..(row + 1) * width, kept * width);
+                    kept += 1;
+                }
+                row += 1;
+            }
+        }
+        features.truncate(kept * width);
+        let mut tally = Tally { rows: kept as u64, seconds_pass_1, ..Tally::default() };
+        let mut answers = self.mlp.predict(&features).into_iter();
+        for (out, &class) in out.iter_mut().zip(&*classes) {
+            if class == Class::Network {
+                *out = answers.next().expect("one answer a question");
+            }
+            tally.classes[class as usize] += 1;
+        }
+        tally.seconds_pass_2 = start.elapsed().as_secs_f64();
+        Ok(tally)
+    }
+}
+
+/// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
+const LEAST_OPACITY: f64 = 1.0 / 512.0;
+
+/// A network as one thread asks it.
+struct Tile<'a> {
+    tiled: &'a Tiled,
+    work: Vec<Row>,
+}
+
+impl Network for Tile<'_> {
+    fn answer(&mut self, columns: &[Column], out: &mut [f32]) {
+        const { assert!(ROWS <= Tiled::ROWS) }
+        let vectors = out.len().div_ceil(LANES);
+        for (row, column) in self.work.iter_mut().zip(columns) {
+            for (lanes, values) in row.iter_mut().zip(column.chunks_exact(LANES)).take(vectors) {
+                lanes.0.copy_from_slice(values);
+            }
+        }
+        self.tiled.answer(&mut self.work, out);
     }
 }
 
 impl Method for Neural {
     fn name(&self) -> String {
-        format!("neural:{}", self.mlp.name())
+        format!("neural:{}{}", self.mlp.name(), if self.frame == MomentFrame::Pixel { " @ prepass" } else { "" })
     }
 
     /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
@@ -94,7 +258,9 @@ impl Accumulated for Answers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::features::passes;
     use crate::model::mlp::tests::random_mlp;
+    use crate::numeric::rng::stream;
     use crate::oit;
     use crate::pixel::CameraPlanes;
 
@@ -128,5 +294,96 @@ mod tests {
         assert_eq!(all.len(), 3);
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap().with_planes(planes);
         assert!(method.transmittance(&none, Context::default(), &|_| {}).unwrap().is_empty());
+    }
+
+    fn recentred(hidden: &[usize], seed: u64, scale: f32) -> Mlp {
+        let mut layers = random_mlp(hidden, seed).layers().to_vec();
+        layers.iter_mut().for_each(|l| l.biases.iter_mut().for_each(|b| *b *= scale));
+        Mlp::new("r", FeatureSet::Recentred, layers, crate::model::Provenance::default()).unwrap()
+    }
+
+    /// `exact` gives the bits of `none`, and runs the network less often; with features that know nothing too.
+    #[test]
+    fn exact_answers_are_those_without_skipping() {
+        let list = passes::tests::pixels(&mut stream(4, 94, 0), 4000).with_planes(CameraPlanes::new(0.5, 200.0).unwrap());
+        for mlp in [recentred(&[16, 8], 1, 1.0), random_mlp(&[4], 1)] {
+            let of = |skip| Neural::new(mlp.clone()).with_skip(skip).answers(&list, Context::default(), &|_| {}).unwrap();
+            let (none, exact, visible) = (of(Skip::None), of(Skip::Exact), of(Skip::Visible));
+            let bits = |a: &Answered| a.transmittance.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&none), bits(&exact));
+            assert_eq!(none.tally.rows as usize, list.len());
+            assert!(exact.tally.rows < none.tally.rows || mlp.feature_set() == FeatureSet::Paper);
+            assert!(visible.tally.rows < exact.tally.rows);
+            assert_ne!(bits(&visible), bits(&exact));
+        }
+    }
+
+    /// Adversarial pixels under networks that say anything: no channel is more than half a display step from the image in which hidden fragments are answered
+    /// exactly and all others by the network. Controls: answering them with 1 is; and some pixel is asked after all.
+    #[test]
+    fn what_is_skipped_cannot_be_seen() {
+        let list = passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
+        let truth = crate::pixel::abuffer::list_transmittance(&list);
+        let (mut worst, mut control, mut again) = (0.0f64, 0.0f64, 0);
+        for (mlp, background) in
+            [(recentred(&[16, 8], 1, 1.0), 1.0), (recentred(&[8], 2, 9.0), 0.0), (recentred(&[6], 3, -9.0), 1.0), (recentred(&[4], 9, 40.0), 0.0)]
+        {
+            let of = |skip| Neural::new(mlp.clone()).with_skip(skip).answers(&list, Context::default(), &|_| {}).unwrap();
+            let (exact, visible) = (of(Skip::Exact), of(Skip::Visible));
+            let classes_alone = {
+                let mut class = vec![Class::Network; list.len()];
+                let passes = Extractor::for_list(FeatureSet::Recentred, &list, None, None).unwrap().passes().unwrap();
+                passes.run(&list, 0..list.pixels(), Skip::Visible.switches(), || passes::Silent, &mut vec![0.0; list.len()], &mut class);
+                class
+            };
+            again += classes_alone.iter().zip(&visible.classes).filter(|(a, b)| a != b).count();
+            for p in 0..list.pixels() {
+                let range = list.range(p);
+                let image = |answer: &dyn Fn(usize) -> f64| {
+                    let weights: Vec<f64> = range.clone().map(answer).collect();
+                    oit::composite_normalised(list.pixel(p), &weights, [background; 3])
+                };
+                let is_hidden = |i: usize| visible.classes[i] == Class::Hidden;
+                let reference = image(&|i| if is_hidden(i) { truth[i] } else { exact.transmittance[i].into() });
+                let found = image(&|i| visible.transmittance[i].into());
+                let bold = image(&|i| if is_hidden(i) { 1.0 } else { visible.transmittance[i].into() });
+                for c in 0..3 {
+                    let change = (found[c] - reference[c]).abs();
+                    worst = if change.is_nan() { f64::NAN } else { worst.max(change) };
+                    control = control.max((bold[c] - reference[c]).abs());
+                }
+            }
+        }
+        assert!(worst <= 1.0 / 512.0 && worst > 1e-4, "{worst}");
+        assert!(control > 0.05 && again > 0, "{control} {again}");
+    }
+
+    /// The shipped network on the built-in scenes: what `visible` changes, against its own answers. Tolerances: 1/512 in a channel, 0.0005 of FLIP.
+    /// Control: the image of another network is farther.
+    #[test]
+    fn built_in_scenes_look_the_same() {
+        let load = |text: &str| file::from_json(text.as_bytes(), Path::new("m.json")).unwrap();
+        let recommended = load(include_str!("../../models/recommended.json"));
+        for name in crate::scene::BUILT_IN {
+            let options = crate::scene::Options { size: Some((96, 96)), seed: None };
+            let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
+            let image = |mlp: &Mlp, skip| {
+                let answers = Neural::new(mlp.clone()).with_skip(skip).transmittance(&list, Context::default(), &|_| {}).unwrap();
+                let pixels = (0..list.pixels()).map(|p| {
+                    let weights: Vec<f64> = answers[list.range(p)].iter().map(|&t| t.into()).collect();
+                    oit::composite_normalised(list.pixel(p), &weights, [1.0; 3])
+                });
+                crate::evaluate::Image::new(96, 96, pixels.collect()).unwrap()
+            };
+            let (exact, visible) = (image(&recommended, Skip::Exact), image(&recommended, Skip::Visible));
+            let farthest = |a: &crate::evaluate::Image| {
+                let pairs = a.pixels().as_flattened().iter().zip(exact.pixels().as_flattened());
+                pairs.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
+            };
+            assert!(farthest(&visible) <= 1.0 / 512.0, "{name}: {}", farthest(&visible));
+            assert!(crate::evaluate::flip(&exact, &visible).unwrap().mean() <= 5e-4, "{name}");
+            let other = image(&recentred(&[4], 9, 9.0), Skip::Exact);
+            assert!(farthest(&other) > 1.0 / 512.0, "{name}: {}", farthest(&other));
+        }
     }
 }

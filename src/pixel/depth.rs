@@ -1,8 +1,8 @@
 //! The three kinds of depth, each a type of its own so that a mix-up does not compile.
 
-use crate::numeric::lanes;
-use fearless_simd::f32x16;
+use crate::numeric::{doubles, lanes};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x16, f64x8};
 
 /// Distance along the view direction, linear, > 0 [scene units]. What fragment files carry.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -118,6 +118,14 @@ impl CameraPlanes {
         let (near, far) = (f64::from(self.near), f64::from(self.far));
         ViewZ((near * far / (far - w * (far - near))).clamp(near, far))
     }
+
+    /// [`Self::view_z`] of eight window depths at once, the same to the bit.
+    #[inline(always)]
+    pub fn view_z_doubles<S: Simd>(&self, simd: S, w: f64x8<S>) -> f64x8<S> {
+        let (near, far) = (f64::from(self.near), f64::from(self.far));
+        let splat = |x: f64| f64x8::splat(simd, x);
+        (splat(near * far) / (splat(far) - w * splat(far - near))).max(splat(near)).min(splat(far))
+    }
 }
 
 impl WindowDepth {
@@ -172,6 +180,13 @@ impl LogWarp {
     pub fn view_z(&self, MomentDepth(z): MomentDepth) -> ViewZ {
         ViewZ(self.v0 * libm::exp(0.5 * (z + 1.0) * self.log_ratio))
     }
+
+    /// [`Self::view_z`] of eight moment depths at once, the same to the bit.
+    #[inline(always)]
+    pub fn view_z_doubles<S: Simd>(&self, simd: S, z: f64x8<S>) -> f64x8<S> {
+        let splat = |x: f64| f64x8::splat(simd, x);
+        splat(self.v0) * doubles::exp(simd, splat(0.5) * (z + splat(1.0)) * splat(self.log_ratio))
+    }
 }
 
 #[cfg(test)]
@@ -207,6 +222,27 @@ mod tests {
         assert_eq!(warp.moment(ViewZ(2.0)).0, -1.0);
         assert_eq!(warp.moment(ViewZ(32.0)).0, 1.0);
         assert!(warp.moment(ViewZ(8.0)).0.abs() < 1e-15);
+    }
+
+    /// Eight at once and one by one: the same bits, at every place between the ends. Control: another warp, other planes.
+    #[test]
+    fn doubles_follow_the_scalar() {
+        use fearless_simd::{Level, dispatch};
+        let planes = CameraPlanes::new(0.1, 100.0).unwrap();
+        let (warp, other) = (LogWarp::new(ViewZ(0.1), ViewZ(100.0)).unwrap(), LogWarp::new(ViewZ(0.1), ViewZ(101.0)).unwrap());
+        for level in [Level::new(), Level::baseline()] {
+            for i in (0..8000).step_by(8) {
+                let w: [f64; 8] = std::array::from_fn(|lane| (i + lane) as f64 / 7999.0);
+                let z = w.map(|w| 2.0 * w - 1.0);
+                let (moment, window): ([f64; 8], [f64; 8]) = dispatch!(level, simd => {
+                    let of = |x: &[f64]| f64x8::from_slice(simd, x);
+                    (warp.view_z_doubles(simd, of(&z)).into(), planes.view_z_doubles(simd, of(&w)).into())
+                });
+                assert_eq!(moment, z.map(|z| warp.view_z(MomentDepth(z)).0));
+                assert_eq!(window, w.map(|w| planes.view_z(WindowDepth(w)).0));
+                assert_ne!(moment, z.map(|z| other.view_z(MomentDepth(z)).0));
+            }
+        }
     }
 
     proptest! {

@@ -88,6 +88,8 @@ fn obj(path: &Path, material_needed: bool) -> Result<Vec<Part>, SceneError> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let options = tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let library = |name: &Path| match std::fs::read(folder.join(name)) {
+        // The library takes it for granted that a colour has three numbers.
+        Ok(bytes) if !colors_are_whole(&bytes) => Err(tobj::LoadError::MaterialParseError),
         Ok(bytes) => tobj::load_mtl_buf(&mut bytes.as_slice()),
         Err(_) => Err(tobj::LoadError::OpenFileFailed),
     };
@@ -127,6 +129,14 @@ fn obj(path: &Path, material_needed: bool) -> Result<Vec<Part>, SceneError> {
     within_bounds(path, parts)
 }
 
+/// Whether every colour of a material library has three words.
+fn colors_are_whole(library: &[u8]) -> bool {
+    String::from_utf8_lossy(library).lines().all(|line| {
+        let mut words = line.split_whitespace();
+        !words.next().is_some_and(|w| ["Ka", "Kd", "Ks", "Ke"].contains(&w)) || words.count() >= 3
+    })
+}
+
 fn within_bounds(path: &Path, parts: Vec<Part>) -> Result<Vec<Part>, SceneError> {
     let triangles: usize = parts.iter().map(|p| p.corners.len() / 3).sum();
     if triangles > MOST_TRIANGLES {
@@ -157,12 +167,29 @@ fn glb_chunks<'a>(path: &Path, bytes: &'a [u8]) -> Result<(&'a [u8], Option<&'a 
     Ok((json.ok_or_else(|| truncated(at))?, binary))
 }
 
+/// A glTF document that holds what the format demands.
+fn document(path: &Path, json: &[u8]) -> Result<gltf::Document, SceneError> {
+    let wrong = |e: gltf::Error| SceneError::file_content(path, "glTF", format!("{e}"));
+    let document = gltf::Gltf::from_slice_without_validation(json).map_err(wrong)?.document;
+    let root = document.as_json();
+    // The library's own validation looks positions up without asking whether they are there.
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            if let Some(accessor) = primitive.attributes.values().find(|a| a.value() >= root.accessors.len()) {
+                let reason = format!("an attribute names accessor {} of {}", accessor.value(), root.accessors.len());
+                return Err(SceneError::file_content(path, &format!("meshes[{m}].primitives[{p}]"), reason));
+            }
+        }
+    }
+    gltf::Document::from_json(document.into_json()).map_err(wrong)
+}
+
 fn gltf_file(path: &Path) -> Result<Vec<Part>, SceneError> {
     let bytes = read(path)?;
     let (json, binary) = if bytes.starts_with(b"glTF") { glb_chunks(path, &bytes)? } else { (bytes.as_slice(), None) };
     let document = match json.starts_with(b"glTF") {
         true => return Err(SceneError::file_content(path, "JSON", "a container within a container")),
-        false => gltf::Gltf::from_slice(json).map_err(|e| SceneError::file_content(path, "glTF", format!("{e}")))?,
+        false => document(path, json)?,
     };
     let mut buffers = Vec::new();
     for buffer in document.buffers() {

@@ -216,10 +216,17 @@ mod tests {
             ("b.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "out of bounds"),
             ("c.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
             ("d.gltf", gltf(r#"[{"children":[1]},{"children":[0]}]"#, ""), "cycle"),
+            ("i.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
+            (
+                "h.gltf",
+                gltf(r#"[{"mesh":0}]"#, r#","meshes":[{"primitives":[{"attributes":{"POSITION":9}}]}]"#),
+                "meshes[0].primitives[0]: an attribute names accessor 9 of 0",
+            ),
             ("e.gltf", gltf("[{}]", r#","buffers":[{"byteLength":12,"uri":"gone.bin"}]"#), "gone.bin"),
             ("f.glb", "glTF\u{2}\0\0\0".to_owned(), "ends early"),
             ("g.stl", String::new(), ".obj, .gltf or .glb"),
         ];
+        std::fs::write(folder.path().join("two.mtl"), "newmtl x\nKd 0.5 1\n").unwrap();
         for (name, content, part) in cases {
             let path = folder.path().join(name);
             std::fs::write(&path, content).unwrap();

@@ -12,8 +12,7 @@ use crate::pixel::{LogWarp, MomentDepth, Pixel, ViewZ, absorbance, abuffer};
 use serde::Serialize;
 
 /// Strengths of the bias that are tried \[dimensionless\].
-pub const STRENGTHS: [f64; 17] =
-    [1e-8, 1e-7, 2e-7, 5e-7, 1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 6e-5, 1e-4, 2e-4, 6e-4, 1e-3, 2.5e-3, 6e-3, 2e-2];
+pub const STRENGTHS: [f64; 17] = [1e-8, 1e-7, 2e-7, 5e-7, 1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 6e-5, 1e-4, 2e-4, 6e-4, 1e-3, 2.5e-3, 6e-3, 2e-2];
 
 /// What keeps the moments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -196,8 +196,26 @@ impl Case {
     /// Every case. The same fragments on every machine.
     pub fn all() -> Vec<Self> {
         let cases: [fn(Source) -> Self; 21] = [
-            single, pair, coincident, coincident_between, thin, far_from_origin, extreme_alpha, extreme_absorbance, many_faint, opaque_in_front,
-            opaque_behind, opaque_amid, flat_scene, permutations, beyond_training, subnormal, not_numbers, log_depth, linear_depth, window_depth,
+            single,
+            pair,
+            coincident,
+            coincident_between,
+            thin,
+            far_from_origin,
+            extreme_alpha,
+            extreme_absorbance,
+            many_faint,
+            opaque_in_front,
+            opaque_behind,
+            opaque_amid,
+            flat_scene,
+            permutations,
+            beyond_training,
+            subnormal,
+            not_numbers,
+            log_depth,
+            linear_depth,
+            window_depth,
             usual,
         ];
         // The three depths show the same pixels.

@@ -38,30 +38,32 @@ impl Classic {
 
     /// Four power moments kept with so many significant binary digits, rounded after every addition, at both published biases; everything else is in double precision.
     pub fn power_with_digits(digits: u32) -> [Subject<'static>; 2] {
-        [("moment-power-4, bias of f32", Bias::single_precision(4)), ("moment-power-4, bias of 16 bits", Bias::sixteen_bits(4))].map(|(name, bias)| {
-            Subject::new(name, Promise::None, move |f| {
-                let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
-                let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|e| e.to_string())?;
-                let z = |v: f32| warp.moment(ViewZ(v.into()));
-                Ok(each_pixel(f, |pixel, out| {
-                    let mut b = [0.0f64; 5];
-                    for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
-                        let mut term = absorbance(alpha);
-                        for b in &mut b {
-                            *b = to_digits(*b + term, digits);
-                            term *= z(v).0;
+        [("moment-power-4, bias of f32", Bias::single_precision(4)), ("moment-power-4, bias of 16 bits", Bias::sixteen_bits(4))].map(
+            |(name, bias)| {
+                Subject::new(name, Promise::None, move |f| {
+                    let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
+                    let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|e| e.to_string())?;
+                    let z = |v: f32| warp.moment(ViewZ(v.into()));
+                    Ok(each_pixel(f, |pixel, out| {
+                        let mut b = [0.0f64; 5];
+                        for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
+                            let mut term = absorbance(alpha);
+                            for b in &mut b {
+                                *b = to_digits(*b + term, digits);
+                                term *= z(v).0;
+                            }
                         }
-                    }
-                    if b[0] == 0.0 {
-                        return out.fill(1.0);
-                    }
-                    let curve = PowerCurve::<f64, 2>::new(&b, &bias);
-                    for (out, &v) in out.iter_mut().zip(pixel.view_z) {
-                        *out = curve.transmittance(z(v), OVERESTIMATION);
-                    }
-                }))
-            })
-        })
+                        if b[0] == 0.0 {
+                            return out.fill(1.0);
+                        }
+                        let curve = PowerCurve::<f64, 2>::new(&b, &bias);
+                        for (out, &v) in out.iter_mut().zip(pixel.view_z) {
+                            *out = curve.transmittance(z(v), OVERESTIMATION);
+                        }
+                    }))
+                })
+            },
+        )
     }
 
     fn answers<R: Real>(self, fragments: &Fragments) -> Vec<f64> {

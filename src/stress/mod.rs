@@ -145,7 +145,8 @@ pub fn measure(case: &Case, subject: &Subject<'_>, doubles: &mut Doubles) -> Rep
         }
         if let Some(double) = subject.double(f, doubles) {
             // Where the input is no number there is nothing to round.
-            let known = |values: &[f64]| -> Vec<f64> { values.iter().zip(&case.exact).map(|(&v, e)| if e.is_nan() { f64::NAN } else { v }).collect() };
+            let known =
+                |values: &[f64]| -> Vec<f64> { values.iter().zip(&case.exact).map(|(&v, e)| if e.is_nan() { f64::NAN } else { v }).collect() };
             report.approximation_mse = Errors::of(double, &case.exact).map(|e| e.mse);
             if let Some(e) = Errors::of(&answers, &known(double)) {
                 (report.worst_rounding, report.rounding_mse) = (Some(e.worst), Some(e.mse));
@@ -250,7 +251,8 @@ mod tests {
         let order = measure(&case, &exact_but("order", |i, t| t * if i % 2 == 0 { 1.0 } else { 0.9 }), &mut Doubles::default());
         assert!(order.order_spread > 0.05);
 
-        let single = measure(&super::tests::case("single"), &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-15 } else { t }), &mut Doubles::default());
+        let single =
+            measure(&super::tests::case("single"), &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-15 } else { t }), &mut Doubles::default());
         assert_eq!((single.single_not_one, single.nearest_not_one), (1, 1));
 
         let refused = measure(&case, &Subject::new("none", Promise::Ends, |_| Err("no".to_owned())), &mut Doubles::default());

@@ -12,8 +12,7 @@ use serde::Serialize;
 const SEED: u64 = 0x7377;
 
 /// Half-ranges of pixels in moment depth \[dimensionless\].
-pub const HALF_RANGES: [f64; 18] =
-    [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6];
+pub const HALF_RANGES: [f64; 18] = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6];
 
 /// Numbers of fragments.
 pub const COUNTS: [u32; 11] = [3, 4, 6, 8, 16, 32, 64, 128, 256, 1024, 4096];

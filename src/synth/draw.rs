@@ -3,10 +3,14 @@
 //! Exact arithmetic and `libm` only: the mathematics of the platform would give other bytes on other machines.
 
 use super::config::{AlphaLaw, AlphaReading, CountLaw, DepthLaw, DepthReading, FragmentCount, PixelLaw, Range};
-use crate::numeric::rng::Stream;
-use crate::pixel::{CameraPlanes, LogWarp, MomentDepth, ViewZ, WindowDepth};
+use crate::numeric::doubles::{self, DOUBLES};
+use crate::numeric::rng::{Stream, unit};
+use crate::pixel::{CameraPlanes, LogWarp, ViewZ};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 use rand::Rng;
 use rand_distr::{Distribution, Uniform};
+use std::f64::consts::TAU;
 
 /// Most materials that the objects of a pixel are made of.
 const MOST_MATERIALS: usize = 4;
@@ -14,19 +18,75 @@ const MOST_MATERIALS: usize = 4;
 /// Least opacity of a nearly opaque fragment.
 const NEARLY_OPAQUE: f64 = 0.9;
 
-/// Uniform in [0, 1), a multiple of 2^−52.
-pub(super) fn unit(rng: &mut Stream) -> f64 {
-    (rng.next_u64() >> 12) as f64 * (1.0 / (1u64 << 52) as f64)
+/// What fills a last vector up: in the domain of all that is computed here.
+const FILLER: f64 = 0.5;
+
+/// A whole number below n of a random word, uniform but for a bias below n/2^32.
+fn below(word: u32, n: usize) -> usize {
+    ((u64::from(word) * n as u64) >> 32) as usize
 }
 
-/// A whole number below n, uniform but for a bias below n/2^32.
-fn below(rng: &mut Stream, n: usize) -> usize {
-    ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
+/// Replaces all numbers by what becomes of them, eight at a time.
+macro_rules! each {
+    ($values:expr, $simd:ident, $x:ident => $becomes:expr) => {
+        dispatch!(Level::new(), $simd => map($simd, $values, #[inline(always)] |$x| $becomes))
+    };
 }
 
-/// Uniform in [min, max].
-fn between(rng: &mut Stream, Range { min, max }: Range) -> f64 {
-    (min + (max - min) * unit(rng)).min(max)
+#[inline(always)]
+fn map<S: Simd>(simd: S, values: &mut [f64], becomes: impl Fn(f64x8<S>) -> f64x8<S>) {
+    let (whole, rest) = values.as_chunks_mut::<DOUBLES>();
+    for x in whole {
+        becomes(f64x8::from_slice(simd, x)).store_slice(x);
+    }
+    if !rest.is_empty() {
+        let mut x = [FILLER; DOUBLES];
+        x[..rest.len()].copy_from_slice(rest);
+        becomes(f64x8::from_slice(simd, &x)).store_slice(&mut x);
+        rest.copy_from_slice(&x[..rest.len()]);
+    }
+}
+
+/// The uniform law: low + scale u.
+#[derive(Debug, Clone, Copy)]
+struct Even {
+    low: f64,
+    scale: f64,
+}
+
+impl Even {
+    /// On [min, max], both ends included: the greatest u, 1 − 2^−52, gives max.
+    fn new(Range { min, max }: Range) -> Self {
+        let greatest = 1.0 - f64::EPSILON;
+        let mut scale = (max - min) / greatest;
+        while scale * greatest + min > max {
+            scale = scale.next_down();
+        }
+        Self { low: min, scale }
+    }
+
+    fn at(&self, u: f64) -> f64 {
+        u * self.scale + self.low
+    }
+
+    fn draw(&self, rng: &mut Stream) -> f64 {
+        self.at(rng.unit())
+    }
+}
+
+/// A uniform law that never leaves [min, max], whatever rounding does: min + (max − min) u.
+#[derive(Debug, Clone, Copy)]
+struct Between(Range);
+
+impl Between {
+    fn at(&self, u: f64) -> f64 {
+        let Range { min, max } = self.0;
+        (min + (max - min) * u).min(max)
+    }
+
+    fn draw(&self, rng: &mut Stream) -> f64 {
+        self.at(rng.unit())
+    }
 }
 
 /// The log-uniform law on [min, max]: every octave is as likely as any other.
@@ -44,26 +104,109 @@ impl LogUniform {
     }
 
     fn draw(&self, rng: &mut Stream) -> f64 {
-        libm::exp(self.ln_min + self.ln_ratio * unit(rng)).clamp(self.range.min, self.range.max)
+        libm::exp(self.ln_min + self.ln_ratio * rng.unit()).clamp(self.range.min, self.range.max)
+    }
+
+    /// [`Self::draw`] of all these units.
+    fn of_units(&self, units: &mut [f64]) {
+        let Self { range, ln_min, ln_ratio } = *self;
+        each!(units, simd, u => {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            doubles::exp(simd, splat(ln_min) + splat(ln_ratio) * u).max(splat(range.min)).min(splat(range.max))
+        });
     }
 }
 
-/// Standard normal numbers, made two at a time.
+/// The two standard normal numbers of each pair of units, in the places of those.
+///
+/// # Source
+/// Box and Muller, *A note on the generation of random normal deviates*, 1958.
+fn normals(radii: &mut [f64], angles: &mut [f64]) {
+    #[inline(always)]
+    fn all<S: Simd>(simd: S, radii: &mut [f64], angles: &mut [f64]) {
+        let splat = |x: f64| f64x8::splat(simd, x);
+        for (u, v) in radii.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(angles.as_chunks_mut::<DOUBLES>().0) {
+            // 1 − u is never 0.
+            let r = (splat(-2.0) * doubles::ln(simd, splat(1.0) - f64x8::from_slice(simd, u))).sqrt();
+            let (sin, cos) = doubles::sincos(simd, splat(TAU) * f64x8::from_slice(simd, v));
+            (r * cos).store_slice(u);
+            (r * sin).store_slice(v);
+        }
+    }
+    assert!(radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES), "whole vectors");
+    dispatch!(Level::new(), simd => all(simd, radii, angles));
+}
+
+/// Units to come, each with its logarithm and with the sine and cosine of its share of a turn: which of them will serve for what is not known beforehand, as draws
+/// that are rejected shift all that follow.
 #[derive(Default)]
-struct Normal {
+struct Ahead {
+    units: Vec<f64>,
+    /// ln(1 − u)
+    ln: Vec<f64>,
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+    /// The next of them.
+    at: usize,
+    /// The second normal number of a pair.
     spare: Option<f64>,
 }
 
-impl Normal {
-    /// # Source
-    /// Box and Muller, *A note on the generation of random normal deviates*, 1958.
-    fn draw(&mut self, rng: &mut Stream) -> f64 {
+impl Ahead {
+    /// Units that are at hand after [`Self::provide`].
+    const LEAST: usize = 4;
+
+    /// Makes four units at least, and about as many as are wanted.
+    #[inline]
+    fn provide(&mut self, rng: &mut Stream, wanted: usize) {
+        if self.units.len() - self.at < Self::LEAST {
+            self.look(rng, wanted);
+        }
+    }
+
+    #[inline(never)]
+    fn look(&mut self, rng: &mut Stream, wanted: usize) {
+        #[inline(always)]
+        fn all<S: Simd>(simd: S, Ahead { units, ln, sin, cos, .. }: &mut Ahead) {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            for out in [&mut *ln, sin, cos] {
+                out.resize(units.len(), 0.0);
+            }
+            let outputs = ln.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(sin.as_chunks_mut::<DOUBLES>().0).zip(cos.as_chunks_mut::<DOUBLES>().0);
+            for (u, ((ln, sin), cos)) in units.as_chunks::<DOUBLES>().0.iter().zip(outputs) {
+                let u = f64x8::from_slice(simd, u);
+                doubles::ln(simd, splat(1.0) - u).store_slice(ln);
+                let (s, c) = doubles::sincos(simd, splat(TAU) * u);
+                s.store_slice(sin);
+                c.store_slice(cos);
+            }
+        }
+        self.settle(rng);
+        let words = rng.words().as_chunks().0;
+        let words = &words[..words.len().min(wanted.max(Self::LEAST).next_multiple_of(DOUBLES))];
+        self.units.extend(words.iter().map(|&pair| unit(pair)));
+        let count = self.units.len();
+        self.units.resize(count.next_multiple_of(DOUBLES), FILLER);
+        dispatch!(Level::new(), simd => all(simd, self));
+        self.units.truncate(count);
+    }
+
+    /// Uses up the units that were taken, and forgets the others.
+    fn settle(&mut self, rng: &mut Stream) {
+        rng.skip(2 * self.at);
+        self.at = 0;
+        self.units.clear();
+    }
+
+    /// A standard normal number; takes two units, or none.
+    #[inline]
+    fn normal(&mut self) -> f64 {
         if let Some(x) = self.spare.take() {
             return x;
         }
-        // 1 − u is never 0.
-        let r = (-2.0 * libm::log(1.0 - unit(rng))).sqrt();
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * unit(rng));
+        let r = (-2.0 * self.ln[self.at]).sqrt();
+        let (sin, cos) = (self.sin[self.at + 1], self.cos[self.at + 1]);
+        self.at += 2;
         self.spare = Some(r * sin);
         r * cos
     }
@@ -83,25 +226,37 @@ impl Gamma {
         Self { d, c: 1.0 / (9.0 * d).sqrt(), boost: (a < 1.0).then(|| 1.0 / a) }
     }
 
+    /// A number and the logarithm of its factor, which is 0 where there is none; `wanted` units will be taken in about all that follows.
+    ///
     /// # Source
     /// Marsaglia and Tsang, *A simple method for generating gamma variables*, 2000; shapes below 1 by their Sec. 6: γ(a) = γ(a + 1) u^(1/a).
-    fn draw(&self, rng: &mut Stream, normal: &mut Normal) -> f64 {
+    #[inline]
+    fn draw(&self, rng: &mut Stream, ahead: &mut Ahead, wanted: usize) -> (f64, f64) {
         let gamma = loop {
-            let x = normal.draw(rng);
+            ahead.provide(rng, wanted);
+            let x = ahead.normal();
             let v = 1.0 + self.c * x;
             if v <= 0.0 {
                 continue;
             }
             let v = v * v * v;
-            let u = 1.0 - unit(rng);
+            let (u, ln) = (1.0 - ahead.units[ahead.at], ahead.ln[ahead.at]);
+            ahead.at += 1;
             // The first test is cheap and settles most draws.
-            if u < 1.0 - 0.0331 * (x * x) * (x * x) || libm::log(u) < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
+            if u < 1.0 - 0.0331 * (x * x) * (x * x) || ln < 0.5 * x * x + self.d * (1.0 - v + libm::log(v)) {
                 break self.d * v;
             }
         };
-        match self.boost {
-            Some(power) => gamma * libm::exp(power * libm::log(1.0 - unit(rng))),
-            None => gamma,
+        let Some(power) = self.boost else { return (gamma, 0.0) };
+        ahead.at += 1;
+        (gamma, power * ahead.ln[ahead.at - 1])
+    }
+
+    /// Applies the factors of which the logarithms are given; these become the factors on the way.
+    fn boost(&self, gammas: &mut [f64], logarithms: &mut [f64]) {
+        if self.boost.is_some() {
+            each!(logarithms, simd, x => doubles::exp(simd, x));
+            gammas.iter_mut().zip(logarithms).for_each(|(gamma, factor)| *gamma *= *factor);
         }
     }
 }
@@ -109,8 +264,15 @@ impl Gamma {
 /// Memory that the pixels of one task share.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// Depth of each fragment of the shape, in about [0, 1].
+    /// Depth of each fragment: of the shape, in about [0, 1], then where it lies.
     depth: Vec<f64>,
+    /// Units of opacities, then these.
+    units: Vec<f64>,
+    /// Units of normal numbers, which then take their places, and the fragments that they are for.
+    radii: Vec<f64>,
+    angles: Vec<f64>,
+    soft: Vec<u32>,
+    ahead: Ahead,
     /// Object of each fragment: whole numbers from 0.
     object: Vec<u32>,
     /// Centre and standard deviation of each cluster.
@@ -135,7 +297,7 @@ enum Count {
 
 #[derive(Debug, Clone)]
 enum Depth {
-    Window { law: Uniform<f64>, reading: DepthReading },
+    Window { law: Even, reading: DepthReading },
     Moment { shape: Shape, half: LogUniform },
 }
 
@@ -149,14 +311,10 @@ enum Shape {
 
 #[derive(Debug, Clone)]
 enum Alpha {
-    Uniform(Uniform<f64>, AlphaReading),
+    Uniform(Even, AlphaReading),
     LogUniform(LogUniform, AlphaReading),
     Subrange(Range),
     NearOpaque { share: Range, low: LogUniform },
-}
-
-fn uniform(min: f64, max: f64) -> Uniform<f64> {
-    Uniform::new_inclusive(min, max).expect("validated: min <= max, both finite")
 }
 
 impl Law {
@@ -187,12 +345,21 @@ impl Camera {
         Self { planes, warp: LogWarp::new(near, far).expect("validated: 0 < near < far") }
     }
 
-    fn of_window(&self, w: WindowDepth) -> f32 {
-        (self.planes.view_z(w).0 as f32).clamp(self.planes.near(), self.planes.far())
+    /// Appends the view depths of window depths, which these become on the way.
+    fn of_window(&self, depth: &mut [f64], out: &mut Vec<f32>) {
+        each!(depth, simd, w => self.planes.view_z_doubles(simd, w));
+        self.within(depth, out);
     }
 
-    fn of_moment(&self, z: MomentDepth) -> f32 {
-        (self.warp.view_z(z).0 as f32).clamp(self.planes.near(), self.planes.far())
+    /// The same of moment depths.
+    fn of_moment(&self, depth: &mut [f64], out: &mut Vec<f32>) {
+        each!(depth, simd, z => self.warp.view_z_doubles(simd, z));
+        self.within(depth, out);
+    }
+
+    fn within(&self, view_z: &[f64], out: &mut Vec<f32>) {
+        let (near, far) = (self.planes.near(), self.planes.far());
+        out.extend(view_z.iter().map(|&v| (v as f32).clamp(near, far)));
     }
 }
 
@@ -215,7 +382,7 @@ impl Count {
 impl Depth {
     fn new(config: &PixelLaw) -> Self {
         let shape = match config.depth {
-            DepthLaw::Window { min, max, reading } => return Self::Window { law: uniform(min, max), reading },
+            DepthLaw::Window { min, max, reading } => return Self::Window { law: Even::new(Range { min, max }), reading },
             DepthLaw::Uniform {} => Shape::Uniform,
             DepthLaw::Clustered { clusters, width } => Shape::Clustered {
                 clusters: Uniform::new_inclusive(clusters.min, clusters.max).expect("validated: min <= max"),
@@ -232,94 +399,167 @@ impl Depth {
             Self::Window { law, reading } => {
                 scratch.object.clear();
                 scratch.object.extend(0..n as u32);
-                draw_window(rng, n, law, *reading, |w| camera.of_window(w), view_z);
+                draw_window(rng, n, law, *reading, &mut scratch.depth);
+                camera.of_window(&mut scratch.depth, view_z);
             }
             Self::Moment { shape, half } => {
                 shape.draw(rng, n, scratch);
                 let half = half.draw(rng);
-                let center = (2.0 * unit(rng) - 1.0) * (1.0 - half);
+                let center = (2.0 * rng.unit() - 1.0) * (1.0 - half);
                 stretch(&mut scratch.depth, center, half);
-                view_z.extend(scratch.depth.iter().map(|&z| camera.of_moment(MomentDepth(z))));
+                camera.of_moment(&mut scratch.depth, view_z);
             }
         }
     }
 }
 
-fn draw_window(rng: &mut Stream, n: usize, law: &Uniform<f64>, reading: DepthReading, view: impl Fn(WindowDepth) -> f32, out: &mut Vec<f32>) {
-    let anywhere = uniform(0.0, 1.0);
+/// Window depths of n fragments.
+fn draw_window(rng: &mut Stream, n: usize, law: &Even, reading: DepthReading, depth: &mut Vec<f64>) {
+    let anywhere = Even::new(Range { min: 0.0, max: 1.0 });
     match reading {
-        DepthReading::PerFragment => out.extend((0..n).map(|_| view(WindowDepth(law.sample(rng))))),
-        DepthReading::PixelExtent if n == 1 => out.push(view(WindowDepth(anywhere.sample(rng)))),
+        DepthReading::PerFragment => {
+            fill(rng, n, depth);
+            depth.iter_mut().for_each(|w| *w = law.at(*w));
+        }
+        DepthReading::PixelExtent if n == 1 => {
+            depth.clear();
+            depth.push(anywhere.draw(rng));
+        }
         DepthReading::PixelExtent => {
-            let extent = law.sample(rng);
-            let start = anywhere.sample(rng) * (1.0 - extent);
-            let place = |u: f64| view(WindowDepth((start + u * extent).clamp(0.0, 1.0)));
-            out.extend([0.0, 1.0].map(place));
-            out.extend((2..n).map(|_| place(anywhere.sample(rng))));
+            let extent = law.draw(rng);
+            let start = anywhere.draw(rng) * (1.0 - extent);
+            fill(rng, n - 2, depth);
+            depth.iter_mut().for_each(|u| *u = anywhere.at(*u));
+            depth.splice(..0, [0.0, 1.0]);
+            depth.iter_mut().for_each(|u| *u = (start + *u * extent).clamp(0.0, 1.0));
         }
     }
+}
+
+/// So many units in the place of what is there.
+fn fill(rng: &mut Stream, n: usize, units: &mut Vec<f64>) {
+    units.resize(n, 0.0);
+    rng.units(units);
 }
 
 impl Shape {
     /// Depths and objects of n fragments.
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch) {
-        let Scratch { depth, object, clusters, .. } = scratch;
-        depth.clear();
+        let Scratch { depth, units, object, clusters, radii, angles, soft, ahead, .. } = scratch;
         object.clear();
         match self {
-            Self::Uniform => depth.extend((0..n).map(|_| unit(rng))),
+            Self::Uniform => fill(rng, n, depth),
             Self::Clustered { clusters: count, width } => {
                 clusters.clear();
-                clusters.extend((0..count.sample(rng)).map(|_| (unit(rng), width.draw(rng))));
-                let mut normal = Normal::default();
-                for _ in 0..n {
-                    let k = below(rng, clusters.len());
-                    let (center, width) = clusters[k];
-                    // Half with soft edges, half with hard ones; √3 makes the uniform law's deviation 1.
-                    let scatter = if unit(rng) < 0.5 { normal.draw(rng) } else { (2.0 * unit(rng) - 1.0) * 3f64.sqrt() };
-                    depth.push(center + width * scatter);
-                    object.push(k as u32);
+                clusters.extend((0..count.sample(rng)).map(|_| (rng.unit(), width.draw(rng))));
+                scatter(rng, n, clusters.len(), object, depth, [radii, angles], soft);
+                for (x, &k) in depth.iter_mut().zip(&*object) {
+                    let (center, width) = clusters[k as usize];
+                    *x = center + width * *x;
                 }
                 return;
             }
             Self::Paired { gap } => {
                 let gap = gap.draw(rng);
-                while depth.len() < n {
-                    let front = unit(rng);
-                    let back = front + gap * unit(rng);
-                    depth.extend([front, back]);
+                fill(rng, n.next_multiple_of(2), depth);
+                for [front, back] in depth.as_chunks_mut().0 {
+                    *back = *front + gap * *back;
                 }
                 depth.truncate(n);
                 object.extend((0..n as u32).map(|i| i / 2));
                 return;
             }
             Self::Beta { a, b } => {
-                let (a, b) = (Gamma::new(a.draw(rng)), Gamma::new(b.draw(rng)));
-                let mut normal = Normal::default();
-                depth.extend((0..n).map(|_| {
-                    let (x, y) = (a.draw(rng, &mut normal), b.draw(rng, &mut normal));
-                    x / (x + y)
-                }));
+                let laws = [a, b].map(|shape| Gamma::new(shape.draw(rng)));
+                let units_of_a_fragment = 4 + laws.iter().filter(|law| law.boost.is_some()).count();
+                let [x, y] = [depth, units];
+                for of_law in [&mut *x, y, radii, angles] {
+                    of_law.resize(n, 0.0);
+                }
+                for i in 0..n {
+                    let wanted = units_of_a_fragment * (n - i);
+                    (x[i], radii[i]) = laws[0].draw(rng, ahead, wanted);
+                    (y[i], angles[i]) = laws[1].draw(rng, ahead, wanted);
+                }
+                ahead.settle(rng);
+                ahead.spare = None;
+                laws[0].boost(x, radii);
+                laws[1].boost(y, angles);
+                x.iter_mut().zip(y).for_each(|(x, y)| *x /= *x + *y);
             }
         }
         object.extend(0..n as u32);
     }
 }
 
+/// Clusters of n fragments, and how far each lies from its cluster's centre, in standard deviations: half of them by the normal and half by the uniform law.
+///
+/// Every fragment takes a word for its cluster, two to choose the law, and two or four more: normal numbers come in pairs, of which the second takes none. Which
+/// words serve what is settled first, without a branch; then all normal numbers are computed at once.
+fn scatter(
+    rng: &mut Stream,
+    n: usize,
+    clusters: usize,
+    object: &mut Vec<u32>,
+    out: &mut Vec<f64>,
+    [radii, angles]: [&mut Vec<f64>; 2],
+    soft: &mut Vec<u32>,
+) {
+    object.resize(n, 0);
+    out.resize(n, 0.0);
+    soft.resize(n, 0);
+    for units in [&mut *radii, angles] {
+        // Half of the fragments take a pair each at the most, and one place more is written ahead.
+        units.resize((n / 2 + 2).next_multiple_of(DOUBLES), FILLER);
+    }
+    let (mut pairs, mut count, mut spare) = (0, 0, 0);
+    for i in 0..n {
+        let &[which, _, law, u0, u1, v0, v1, _] = rng.peek();
+        object[i] = below(which, clusters) as u32;
+        let (u, v) = (unit([u0, u1]), unit([v0, v1]));
+        // √3 makes the uniform law's deviation 1.
+        out[i] = (2.0 * u - 1.0) * 3f64.sqrt();
+        (radii[pairs], angles[pairs], soft[count]) = (u, v, i as u32);
+        // Units below ½ have no highest bit.
+        let is_soft = (law >> 31 ^ 1) as usize;
+        let takes_pair = is_soft & (spare ^ 1);
+        (pairs, count, spare) = (pairs + takes_pair, count + is_soft, spare ^ is_soft);
+        rng.skip(3 + 2 * (is_soft ^ 1) + 4 * takes_pair);
+    }
+    let whole = pairs.next_multiple_of(DOUBLES);
+    normals(&mut radii[..whole], &mut angles[..whole]);
+    for (j, &i) in soft[..count].iter().enumerate() {
+        out[i as usize] = if j % 2 == 0 { radii[j / 2] } else { angles[j / 2] };
+    }
+}
+
 /// Moves and scales depths until the least is center − half and the greatest is center + half, to the bit. Depths that all tie go to the centre.
 fn stretch(depth: &mut [f64], center: f64, half: f64) {
-    let (lo, hi) = depth.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
-    for x in depth {
+    #[inline(always)]
+    fn ends<S: Simd>(simd: S, x: &[f64]) -> (f64, f64) {
+        let (whole, rest) = x.as_chunks::<DOUBLES>();
+        let start = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, f64::NEG_INFINITY));
+        let (lo, hi) = whole.iter().map(|x| f64x8::from_slice(simd, x)).fold(start, |(lo, hi), x| (lo.min(x), hi.max(x)));
+        let ends = (lo.reduce_min(), hi.reduce_max());
+        rest.iter().fold(ends, |(lo, hi), &x| (lo.min(x), hi.max(x)))
+    }
+    let (lo, hi) = dispatch!(Level::new(), simd => ends(simd, depth));
+    if lo < hi {
         // Divided, not multiplied by a reciprocal: the farthest must give 1.
-        let place = if lo < hi { (*x - lo) / (hi - lo) } else { 0.5 };
-        *x = center + half * (2.0 * place - 1.0);
+        each!(depth, simd, x => {
+            let splat = |x: f64| f64x8::splat(simd, x);
+            let place = (x - splat(lo)) / splat(hi - lo);
+            splat(center) + splat(half) * (splat(2.0) * place - splat(1.0))
+        });
+    } else {
+        depth.fill(center);
     }
 }
 
 impl Alpha {
     fn new(law: AlphaLaw) -> Self {
         match law {
-            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(uniform(min, max), reading),
+            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(Even::new(Range { min, max }), reading),
             AlphaLaw::LogUniform { min, max, reading } => Self::LogUniform(LogUniform::new(Range { min, max }), reading),
             AlphaLaw::Subrange { min, max } => Self::Subrange(Range { min, max }),
             AlphaLaw::NearOpaque { share, low } => Self::NearOpaque { share, low: LogUniform::new(low) },
@@ -327,26 +567,43 @@ impl Alpha {
     }
 
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch, out: &mut Vec<f32>) {
+        let units = &mut scratch.units;
         match self {
-            Self::Uniform(law, reading) => draw_alpha(rng, n, |rng| law.sample(rng), *reading, scratch, out),
-            Self::LogUniform(law, reading) => draw_alpha(rng, n, |rng| law.draw(rng), *reading, scratch, out),
+            Self::Uniform(law, AlphaReading::PerFragment) => {
+                fill(rng, n, units);
+                out.extend(units.iter().map(|&u| opacity(law.at(u))));
+            }
+            Self::LogUniform(law, AlphaReading::PerFragment) => {
+                fill(rng, n, units);
+                law.of_units(units);
+                out.extend(units.iter().map(|&alpha| opacity(alpha)));
+            }
+            Self::Uniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
+            Self::LogUniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
             Self::Subrange(range) => {
-                let (a, b) = (between(rng, *range), between(rng, *range));
-                let range = Range { min: a.min(b), max: a.max(b) };
-                out.extend((0..n).map(|_| between(rng, range) as f32));
+                let (a, b) = (Between(*range).draw(rng), Between(*range).draw(rng));
+                let law = Between(Range { min: a.min(b), max: a.max(b) });
+                fill(rng, n, units);
+                out.extend(units.iter().map(|&u| law.at(u) as f32));
             }
             Self::NearOpaque { share, low } => {
-                let (share, low) = (between(rng, *share), low.draw(rng));
-                out.extend((0..n).map(|_| {
-                    let range = if unit(rng) < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
-                    between(rng, range) as f32
+                let (share, low) = (Between(*share).draw(rng), low.draw(rng));
+                fill(rng, 2 * n, units);
+                out.extend(units.as_chunks().0.iter().map(|&[u, v]| {
+                    let range = if u < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
+                    Between(range).at(v) as f32
                 }));
             }
         }
     }
 }
 
-fn draw_alpha(
+fn opacity(alpha: f64) -> f32 {
+    (alpha as f32).clamp(0.0, 1.0)
+}
+
+/// Opacities that several fragments share.
+fn draw_shared(
     rng: &mut Stream,
     n: usize,
     law: impl Fn(&mut Stream) -> f64,
@@ -354,30 +611,25 @@ fn draw_alpha(
     Scratch { object, object_alpha, .. }: &mut Scratch,
     out: &mut Vec<f32>,
 ) {
-    let draw = |rng: &mut Stream| (law(rng) as f32).clamp(0.0, 1.0);
-    match reading {
-        AlphaReading::PerFragment => out.extend((0..n).map(|_| draw(rng))),
-        AlphaReading::PerPixel => {
-            let alpha = draw(rng);
-            out.extend(std::iter::repeat_n(alpha, n));
-        }
-        AlphaReading::PerObject => {
-            let mut materials = [0.0; MOST_MATERIALS];
-            let materials = &mut materials[..1 + below(rng, MOST_MATERIALS)];
-            materials.fill_with(|| draw(rng));
-            object_alpha.clear();
-            out.extend(object.iter().map(|&o| {
-                let o = o as usize;
-                if object_alpha.len() <= o {
-                    object_alpha.resize(o + 1, f32::NAN);
-                }
-                if object_alpha[o].is_nan() {
-                    object_alpha[o] = materials[below(rng, materials.len())];
-                }
-                object_alpha[o]
-            }));
-        }
+    if reading == AlphaReading::PerPixel {
+        let alpha = opacity(law(rng));
+        out.extend(std::iter::repeat_n(alpha, n));
+        return;
     }
+    let mut materials = [0.0; MOST_MATERIALS];
+    let materials = &mut materials[..1 + below(rng.next_u32(), MOST_MATERIALS)];
+    materials.fill_with(|| opacity(law(rng)));
+    object_alpha.clear();
+    out.extend(object.iter().map(|&o| {
+        let o = o as usize;
+        if object_alpha.len() <= o {
+            object_alpha.resize(o + 1, f32::NAN);
+        }
+        if object_alpha[o].is_nan() {
+            object_alpha[o] = materials[below(rng.next_u32(), materials.len())];
+        }
+        object_alpha[o]
+    }));
 }
 
 #[cfg(test)]
@@ -441,18 +693,21 @@ mod tests {
 
     #[test]
     fn the_basic_laws() {
-        let u = draws(unit);
+        let u = draws(Stream::unit);
         assert!(u.iter().all(|u| (0.0..1.0).contains(u)));
         assert!(has_mean(&u, |u| u, 0.5) && has_mean(&u, |u| u * u, 1.0 / 3.0));
         // Control: the tolerance is narrower than a hundredth.
         assert!(!has_mean(&u, |u| u, 0.51));
-        let k = draws(|rng| below(rng, 5) as f64);
+        let k = draws(|rng| below(rng.next_u32(), 5) as f64);
         assert!((0..5).all(|i| has_mean(&k, |k| f64::from(u8::from(k == f64::from(i))), 0.2)));
         let log = draws(|rng| LogUniform::new(range(1e-3, 10.0)).draw(rng));
         assert!(log.iter().all(|x| (1e-3..=10.0).contains(x)));
         assert!(has_mean(&log, f64::log10, -1.0) && has_mean(&log, |x| x, (10.0 - 1e-3) / 1e4f64.ln()));
-        let mut normal = Normal::default();
-        let x = draws(|rng| normal.draw(rng));
+        let mut ahead = Ahead::default();
+        let x = draws(|rng| {
+            ahead.provide(rng, 100);
+            ahead.normal()
+        });
         let inside = |x: f64| f64::from(u8::from(x.abs() < 1.0));
         assert!(has_mean(&x, |x| x, 0.0) && has_mean(&x, |x| x * x, 1.0) && has_mean(&x, |x| x.powi(4), 3.0) && has_mean(&x, inside, 0.682_689_5));
         // Those of one pair are independent.
@@ -464,8 +719,12 @@ mod tests {
     #[test]
     fn the_gamma_law() {
         for (a, digamma) in [(0.3, -3.502_524_222), (1.0, -0.577_215_665), (5.0, 1.506_117_668)] {
-            let (gamma, mut normal) = (Gamma::new(a), Normal::default());
-            let x = draws(|rng| gamma.draw(rng, &mut normal));
+            let (gamma, mut ahead) = (Gamma::new(a), Ahead::default());
+            let (mut x, mut logarithms): (Vec<f64>, Vec<f64>) = {
+                let mut rng = rng();
+                (0..DRAWS).map(|_| gamma.draw(&mut rng, &mut ahead, 100)).unzip()
+            };
+            gamma.boost(&mut x, &mut logarithms);
             assert!(x.iter().all(|&x| x > 0.0));
             assert!(has_mean(&x, |x| x, a) && has_mean(&x, |x| (x - a).powi(2), a) && has_mean(&x, f64::ln, digamma), "a = {a}");
         }
@@ -522,6 +781,89 @@ mod tests {
         assert!(has_mean(&wide.iter().map(|(x, _)| x[0]).collect::<Vec<_>>(), |x| x, 0.5));
     }
 
+    /// Clusters and beta laws drawn number by number with scalar functions, in the order in which words are taken: the same depths to the bit as many at once, and
+    /// as many words taken. Control: the pixel before.
+    #[test]
+    fn many_at_once_are_those_drawn_one_by_one() {
+        struct Plain {
+            spare: Option<f64>,
+        }
+        impl Plain {
+            fn normal(&mut self, rng: &mut Stream) -> f64 {
+                if let Some(x) = self.spare.take() {
+                    return x;
+                }
+                let r = (-2.0 * libm::log(1.0 - rng.unit())).sqrt();
+                let (sin, cos) = libm::sincos(TAU * rng.unit());
+                self.spare = Some(r * sin);
+                r * cos
+            }
+
+            fn gamma(&mut self, rng: &mut Stream, a: f64) -> f64 {
+                let law = Gamma::new(a);
+                let gamma = loop {
+                    let x = self.normal(rng);
+                    let v = 1.0 + law.c * x;
+                    let v = v * v * v;
+                    if v > 0.0 && libm::log(1.0 - rng.unit()) < 0.5 * x * x + law.d * (1.0 - v + libm::log(v)) {
+                        break law.d * v;
+                    }
+                };
+                if a < 1.0 { gamma * libm::exp(1.0 / a * libm::log(1.0 - rng.unit())) } else { gamma }
+            }
+        }
+        let mut last = Vec::new();
+        for pixel in 0..3000 {
+            let mut many = stream(9, 0x7e57, pixel);
+            // Words before the pixel, so that it starts anywhere.
+            for _ in 0..pixel % 200 {
+                many.next_u32();
+            }
+            let mut one = many.clone();
+            let (n, mut scratch) = (1 + (pixel as usize * 7) % 150, Scratch::default());
+            let mut plain = Plain { spare: None };
+            let expected: Vec<f64> = if pixel % 2 == 0 {
+                let (a, b) = (0.1 + 0.003 * (pixel % 1000) as f64, 0.1 + 0.01 * (pixel % 300) as f64);
+                let shape = Shape::Beta { a: LogUniform::new(range(a, a)), b: LogUniform::new(range(b, b)) };
+                shape.draw(&mut many, n, &mut scratch);
+                (one.unit(), one.unit());
+                (0..n)
+                    .map(|_| {
+                        let (x, y) = (plain.gamma(&mut one, a), plain.gamma(&mut one, b));
+                        x / (x + y)
+                    })
+                    .collect()
+            } else {
+                let Scratch { depth, object, radii, angles, soft, .. } = &mut scratch;
+                scatter(&mut many, n, 5, object, depth, [radii, angles], soft);
+                (0..n)
+                    .map(|i| {
+                        assert_eq!(object[i] as usize, below(one.next_u32(), 5));
+                        if one.unit() < 0.5 { plain.normal(&mut one) } else { (2.0 * one.unit() - 1.0) * 3f64.sqrt() }
+                    })
+                    .collect()
+            };
+            assert_eq!(scratch.depth, expected, "pixel {pixel}");
+            assert_eq!(many.next_u64(), one.next_u64(), "pixel {pixel}");
+            assert_ne!(expected, last);
+            last = expected;
+        }
+    }
+
+    /// The uniform law is that of `rand`, to the bit.
+    #[test]
+    fn the_uniform_law_is_rands() {
+        for (min, max) in [(0.0, 1.0), (0.3, 1.0), (0.1, 0.5), (0.02, 0.95), (0.25, 0.25), (0.0, 0.0), (1.0 / 3.0, 0.7)] {
+            let (ours, theirs) = (Even::new(range(min, max)), Uniform::new_inclusive(min, max).unwrap());
+            let (mut a, mut b) = (rng(), rng());
+            for _ in 0..1000 {
+                let x = ours.draw(&mut a);
+                assert!(x == theirs.sample(&mut b) && (min..=max).contains(&x));
+            }
+            assert_eq!(ours.at(0.0), min);
+        }
+    }
+
     #[test]
     fn pairs() {
         for (depth, object) in shapes(DepthLaw::Paired { gap: range(0.01, 0.1) }, 7, 2000) {
@@ -540,9 +882,9 @@ mod tests {
     fn stretched_extremes_are_exactly_at_the_ends() {
         let mut rng = rng();
         for _ in 0..1000 {
-            let mut x: Vec<f64> = (0..2 + below(&mut rng, 30)).map(|_| 3.0 * unit(&mut rng) - 1.0).collect();
+            let mut x: Vec<f64> = (0..2 + below(rng.next_u32(), 30)).map(|_| 3.0 * rng.unit() - 1.0).collect();
             let half = LogUniform::new(range(1e-4, 1.0)).draw(&mut rng);
-            let center = (2.0 * unit(&mut rng) - 1.0) * (1.0 - half);
+            let center = (2.0 * rng.unit() - 1.0) * (1.0 - half);
             let order = |x: &[f64]| {
                 let mut order: Vec<usize> = (0..x.len()).collect();
                 order.sort_by(|&i, &j| x[i].total_cmp(&x[j]));

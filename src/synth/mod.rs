@@ -4,9 +4,9 @@ pub mod config;
 mod draw;
 
 use crate::numeric::rng::{Stream, stream};
-use crate::pixel::FragmentList;
+use crate::pixel::{FragmentList, Pixel};
 pub use config::{SynthConfig, SynthError};
-use draw::{Camera, Law, Scratch, unit};
+use draw::{Camera, Law, Scratch};
 use rayon::prelude::*;
 
 /// Pixels that one task draws: enough to pay for the task, few enough that their fragments stay in the cache.
@@ -32,6 +32,14 @@ pub struct Synth {
     laws: Vec<Law>,
     /// Shares of the laws, added up: the last is 1.
     shares: Vec<f64>,
+}
+
+/// Memory that pixels are drawn in, one after the other.
+#[derive(Default)]
+pub struct Sketch {
+    scratch: Scratch,
+    view_z: Vec<f32>,
+    alpha: Vec<f32>,
 }
 
 /// Fragments of some pixels.
@@ -97,12 +105,26 @@ impl Synth {
         FragmentList::new(offsets, view_z, alpha, None).expect("a validated distribution gives valid fragments").with_planes(self.config.camera)
     }
 
+    /// One of the pixels that [`Self::pixels`] makes lists of.
+    pub fn pixel<'a>(&self, purpose: Purpose, index: u64, sketch: &'a mut Sketch) -> Pixel<'a> {
+        let Sketch { scratch, view_z, alpha } = sketch;
+        view_z.clear();
+        alpha.clear();
+        self.draw(purpose, index, scratch, view_z, alpha);
+        Pixel { view_z, alpha, color: None }
+    }
+
+    /// Appends one pixel.
+    fn draw(&self, purpose: Purpose, index: u64, scratch: &mut Scratch, view_z: &mut Vec<f32>, alpha: &mut Vec<f32>) {
+        let mut rng = stream(self.seed, purpose as u64, index);
+        self.law(&mut rng).draw(&mut rng, &self.camera, scratch, view_z, alpha);
+    }
+
     fn part(&self, purpose: Purpose, first: u64, count: usize, scratch: &mut Scratch) -> Part {
         let mut part = Part { counts: Vec::with_capacity(count), ..Part::default() };
         for index in first..first + count as u64 {
-            let mut rng = stream(self.seed, purpose as u64, index);
             let before = part.view_z.len();
-            self.law(&mut rng).draw(&mut rng, &self.camera, scratch, &mut part.view_z, &mut part.alpha);
+            self.draw(purpose, index, scratch, &mut part.view_z, &mut part.alpha);
             part.counts.push((part.view_z.len() - before) as u32);
         }
         part
@@ -113,7 +135,7 @@ impl Synth {
         match self.laws.as_slice() {
             [only] => only,
             laws => {
-                let u = unit(rng);
+                let u = rng.unit();
                 &laws[self.shares.iter().position(|&share| u < share).expect("u < 1, the last share")]
             }
         }

@@ -3,6 +3,7 @@
 pub mod adam;
 pub mod burn;
 pub mod checkpoint;
+pub mod feed;
 pub mod fused;
 pub mod initial;
 pub mod scalar;

@@ -1,19 +1,12 @@
 //! The training loop: epochs, shuffling, fresh pixels, validation, the best weights, checkpoints. It knows no backend.
 
 use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses};
+use super::feed::Feed;
 use super::{AdamMoments, Backend, TrainConfig, TrainConfigError, initial};
-use crate::dataset::build::{RowStream, normalise};
-use crate::dataset::{Batch, Blocks, Dataset, DatasetError, Rows};
+use crate::dataset::{Dataset, DatasetError, Rows};
 use crate::model::{Mlp, Provenance, ShapeError};
 use crate::numeric::file::FileError;
-use crate::numeric::lanes::LANES;
-use crate::numeric::rng::stream;
-use crate::synth::Purpose;
-use rand::seq::SliceRandom;
 use std::path::{Path, PathBuf};
-
-/// Keeps the random numbers of shuffling apart from all others.
-const PURPOSE: u64 = 0x1002;
 
 /// Why training ended without a network.
 #[derive(Debug, thiserror::Error)]
@@ -159,29 +152,21 @@ fn fit(
         epoch => done.history[epoch as usize - 1].validation,
     };
 
-    let mut feed = Feed::new(dataset, seed, done.history.len() as u64)?;
-    let per_step = config.batch / LANES;
-    let steps_of_epoch = feed.blocks.len().div_ceil(per_step) as u64;
+    let (first, last) = (done.history.len() as u64 + 1, config.epochs * config.seeds);
+    let mut feed = Feed::new(dataset, seed, config.batch, first - 1)?;
+    let steps_of_epoch = feed.steps();
     let mut samples = 0;
     // Networks follow each other; epochs are counted through.
-    for epoch in done.history.len() as u64 + 1..=config.epochs * config.seeds {
+    for epoch in first..=last {
         let (index, of_network) = ((epoch - 1) / config.epochs, (epoch - 1) % config.epochs);
         if of_network == 0 && epoch > 1 {
             fitted = optimiser(&initial::glorot(&shapes, seed + index));
         }
-        feed.next_epoch(epoch)?;
-        let mut squared_error = 0.0;
-        for (step, order) in feed.order.chunks(per_step).enumerate() {
-            if stop() {
-                return interrupted(&done, job.checkpoint);
-            }
-            let batch = Batch { blocks: &feed.blocks, order };
-            let rate = config.learning_rate_at(of_network * steps_of_epoch + step as u64 + 1, config.epochs * steps_of_epoch);
-            let rows = batch.rows();
-            squared_error += fitted.step(batch, rate) * rows as f64;
-            samples += rows as u64;
-        }
-        let training = squared_error / feed.blocks.rows() as f64;
+        let rate = |step| config.learning_rate_at(of_network * steps_of_epoch + step, config.epochs * steps_of_epoch);
+        let Some(training) = feed.epoch(epoch, epoch < last, fitted.as_mut(), &rate, stop)? else {
+            return interrupted(&done, job.checkpoint);
+        };
+        samples += feed.rows() as u64;
         let parameters = fitted.parameters();
         if !training.is_finite() || parameters.iter().any(|p| !p.is_finite()) {
             return Err(TrainError::Diverged { epoch });
@@ -199,7 +184,7 @@ fn fit(
         let losses = Losses { training, validation };
         done.history.push(losses);
         observe(&EpochReport { epoch, losses, best_validation: best_validation(&done), samples });
-        if epoch % config.checkpoint_every == 0 && epoch < config.epochs * config.seeds {
+        if epoch % config.checkpoint_every == 0 && epoch < last {
             done.save(job.checkpoint)?;
         }
     }
@@ -215,68 +200,6 @@ fn fit(
         ..job.provenance.clone()
     };
     Ok(Outcome::Finished { mlp: Box::new(network(&done.best_parameters, provenance)?), history: done.history })
-}
-
-/// What every epoch learns from: rows in shuffled blocks, some of them replaced by those of fresh pixels where the dataset says so.
-///
-/// The rows stand in segments, a ring: before epoch e > 1, segment e − 2 (modulo their number) is filled anew from pixels (e − 1) · 2^32 on. So
-/// what an epoch learns from depends on the seed and the epoch alone, and an interrupted training can go on.
-struct Feed {
-    blocks: Blocks,
-    order: Vec<u32>,
-    seed: u64,
-    segments: u64,
-    stream: Option<RowStream>,
-}
-
-impl Feed {
-    /// The feed as it stands after so many epochs.
-    fn new(dataset: &Dataset, seed: u64, epochs: u64) -> Result<Self, TrainError> {
-        let rows = &dataset.training;
-        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
-        order.shuffle(&mut stream(seed, PURPOSE, 0));
-        let blocks = Blocks::of(rows, &order);
-        let manifest = &dataset.manifest;
-        let refresh = manifest.dataset.refresh;
-        let stream = match (refresh > 0.0, &manifest.synth) {
-            (false, _) => None,
-            (true, None) => return Err(TrainError::NoStream),
-            (true, Some(synth)) => Some(RowStream::new(manifest.seed, synth, &manifest.dataset, Purpose::Training)?),
-        };
-        let segments = if refresh > 0.0 { (1.0 / refresh).round().min(rows.len() as f64) as u64 } else { 1 };
-        let mut feed = Self { blocks, order: Vec::new(), seed, segments, stream };
-        for epoch in (epochs + 1).saturating_sub(segments).max(2)..=epochs {
-            feed.refill(epoch)?;
-        }
-        Ok(feed)
-    }
-
-    fn next_epoch(&mut self, epoch: u64) -> Result<(), TrainError> {
-        self.refill(epoch)?;
-        self.order.clear();
-        self.order.extend(0..self.blocks.len() as u32);
-        self.order.shuffle(&mut stream(self.seed, PURPOSE, epoch));
-        Ok(())
-    }
-
-    /// Fills the segment of an epoch with fresh rows, in random order.
-    fn refill(&mut self, epoch: u64) -> Result<(), TrainError> {
-        let Some(stream_of_rows) = &mut self.stream else { return Ok(()) };
-        if epoch < 2 {
-            return Ok(());
-        }
-        let (segment, rows) = ((epoch - 2) % self.segments, self.blocks.rows() as u64);
-        let range = (segment * rows / self.segments) as usize..((segment + 1) * rows / self.segments) as usize;
-        stream_of_rows.skip_to((epoch - 1) << 32);
-        let mut fresh = stream_of_rows.take(range.len(), &|_| {})?;
-        normalise(&mut fresh.weights);
-        let mut order: Vec<u32> = (0..fresh.len() as u32).collect();
-        order.shuffle(&mut stream(self.seed, PURPOSE, (1 << 63) | epoch));
-        for (at, row) in range.zip(order) {
-            self.blocks.set(at, &fresh, row as usize);
-        }
-        Ok(())
-    }
 }
 
 fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {

@@ -1,0 +1,349 @@
+//! `nmt bench methods`
+
+use super::{Common, Turns, cells, merged};
+use crate::bench::Summary;
+use crate::bench::methods::{Clock, Contender, Cost, FrontTime, NONE, Setting, Table};
+use crate::bench::scatter::{Captions, Point, is_drawn, svg};
+use crate::cli::Verdict;
+use crate::cli::scene::{SceneOptions, load};
+use crate::cli::ui::{Ui, machine, report, table};
+use crate::evaluate::Truth;
+use crate::evaluate::picture::file_stem;
+use crate::export::Format;
+use crate::gpu::{Gpu, classic};
+use crate::model::file;
+use crate::numeric::file::{Replace, may_write, write_atomically};
+use crate::oit::{Context, all_names, parse};
+use crate::pixel::CameraPlanes;
+use anyhow::{Context as _, bail};
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub struct BenchMethods {
+    /// Scene: a fragment list (.npz), deep image (.exr), scene file (.toml) or the name of a built-in scene.
+    #[arg(long, value_name = "F.npz|SCENE")]
+    fragments: String,
+    /// Methods, by name; "shaders" stands for every classic one that runs on the GPU, "all" for every classic one.
+    #[arg(long, value_delimiter = ',', default_value = "shaders")]
+    methods: Vec<String>,
+    /// Networks to measure beside them.
+    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    model: Vec<PathBuf>,
+    /// Forms of the networks' shaders.
+    #[arg(long, value_delimiter = ',', default_value = "wgsl", value_parser = wgsl)]
+    format: Vec<Format>,
+    /// Where to measure.
+    #[arg(long, value_enum, value_delimiter = ',', default_values = ["cpu", "gpu"])]
+    device: Vec<Device>,
+    /// Folder for results.json and the pictures of time against error.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    options: SceneOptions,
+    /// Near plane of the camera, instead of the list's own [scene units].
+    #[arg(long, requires = "far")]
+    near: Option<f32>,
+    /// Far plane of the camera, instead of the list's own [scene units].
+    #[arg(long, requires = "near")]
+    far: Option<f32>,
+    /// View depths that moment depth -1 and 1 stand for, instead of the list's extremes [scene units].
+    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
+    depth_range: Option<Vec<f32>>,
+    /// Linear colour behind everything.
+    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
+    background: Vec<f64>,
+    /// Replace what is there.
+    #[arg(long)]
+    force: bool,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Device {
+    Cpu,
+    Gpu,
+}
+
+const FORMATS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::WgslF16, Format::WgslPlainF16];
+
+/// The file that holds all numbers.
+const RESULTS: &str = "results.json";
+
+fn wgsl(text: &str) -> Result<Format, String> {
+    let names = FORMATS.map(Format::name).join(", ");
+    FORMATS.into_iter().find(|f| f.name() == text).ok_or_else(|| format!("expected one of {names}"))
+}
+
+impl BenchMethods {
+    pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        let pictures = |out: &Path| [Device::Cpu, Device::Gpu].map(|d| out.join(picture(d)));
+        if let Some(out) = &self.out {
+            may_write(&out.join(RESULTS), replace)?;
+            pictures(out).iter().try_for_each(|path| may_write(path, replace))?;
+        }
+        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
+        let context = Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) };
+        let background = [self.background[0], self.background[1], self.background[2]];
+        if let Some(wrong) = background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
+            bail!("--background {wrong}: every channel must lie in [0, 1]");
+        }
+        let (contenders, demanded) = self.contenders()?;
+        let plan = self.common.prepare()?;
+        let gpu = if self.device.contains(&Device::Gpu) { self.gpu(ui)? } else { None };
+
+        let list = load(&self.fragments, &self.options)?;
+        let truth = Truth::new(&list, background);
+        let setting = Setting { truth: &truth, context, plan };
+        let devices: Vec<Device> =
+            [Device::Cpu, Device::Gpu].into_iter().filter(|d| self.device.contains(d) && (*d == Device::Cpu || gpu.is_some())).collect();
+        let mut turns = Turns::new(ui, devices.len(), plan);
+        let mut tables = Vec::new();
+        for &device in &devices {
+            let measured = match (device, gpu) {
+                (Device::Gpu, Some(gpu)) => {
+                    turns.take(&format!("on {}", gpu.name()), |progress| setting.on_gpu(gpu, &contenders, &self.format, progress))?
+                }
+                _ => {
+                    let name = cpu_name();
+                    turns.take(&format!("on {name}"), |progress| setting.on_cpu(&name, &contenders, progress))?
+                }
+            };
+            tables.push((device, measured));
+        }
+        let figures =
+            tables.iter().flat_map(|(_, t)| t.costs.iter().map(|c| (format!("{} on {}", label(c), c.adapter), times(t, c)))).collect::<Vec<_>>();
+        turns.finish(&figures);
+
+        let scene = Path::new(&self.fragments).file_stem().map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
+        let mut results: Vec<Value> = Vec::new();
+        for (_, table) in &tables {
+            results.extend(table.costs.iter().map(|c| row_json(&scene, table, c)));
+            results.extend(table.left_out.iter().map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })));
+        }
+        let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
+        let mut written = String::new();
+        if let Some(out) = &self.out {
+            for (device, table) in &tables {
+                let path = out.join(picture(*device));
+                let text = chart(&scene, table);
+                write_atomically(&path, replace, |w| w.write_all(text.as_bytes()))?;
+                written += &format!("{}\n", path.display());
+            }
+            let path = out.join(RESULTS);
+            write_atomically(&path, replace, |w| w.write_all(json.as_bytes()))?;
+            written += &format!("{}\n", path.display());
+        }
+        if ui.json() {
+            ui.print(&json)?;
+        } else {
+            let heading = format!("{scene}: {} fragments in {} pixels, at most {} in one\n", list.len(), list.pixels(), list.depth_complexity());
+            let texts: Vec<String> = tables.iter().map(|(_, t)| table_text(t, plan.repeat)).collect();
+            ui.print(&format!("{heading}\n{}{written}", texts.join("\n")))?;
+        }
+        let wrong = tables.iter().flat_map(|(_, t)| &t.left_out).any(|l| !l.harmless && demanded.contains(&l.method));
+        if wrong {
+            bail!("a method that was asked for by name could not be applied; see above");
+        }
+        Ok(Verdict::Fine)
+    }
+
+    /// What to measure, and the names of what was asked for by its own.
+    fn contenders(&self) -> anyhow::Result<(Vec<Contender>, HashSet<String>)> {
+        let mut contenders = Vec::new();
+        let (mut seen, mut demanded) = (HashSet::new(), HashSet::new());
+        for name in &self.methods {
+            let names = match name.as_str() {
+                "all" => all_names(),
+                "shaders" => classic::NAMES.map(str::to_owned).to_vec(),
+                _ => vec![name.clone()],
+            };
+            let by_name = !matches!(name.as_str(), "all" | "shaders");
+            for name in names {
+                let method = parse(&name)?;
+                if by_name {
+                    demanded.insert(method.name());
+                }
+                if seen.insert(method.name()) {
+                    contenders.push(Contender::Method(method));
+                }
+            }
+        }
+        for path in &self.model {
+            let contender = Contender::Network(file::load(path)?);
+            demanded.insert(contender.name());
+            contenders.push(contender);
+        }
+        Ok((contenders, demanded))
+    }
+
+    /// The GPU; none, said aloud, where there is none and the CPU is measured too.
+    fn gpu(&self, ui: &Ui) -> anyhow::Result<Option<&'static Gpu>> {
+        match Gpu::shared() {
+            Ok(gpu) => Ok(Some(gpu)),
+            Err(why) if self.device.contains(&Device::Cpu) => {
+                ui.warn(&format!("note: not measured on a GPU, {why}"));
+                Ok(None)
+            }
+            Err(why) => Err(why).context("--device gpu"),
+        }
+    }
+}
+
+/// The CPU with the threads that it is measured on.
+fn cpu_name() -> String {
+    let cpu = machine()["cpu"].as_str().unwrap_or("CPU").to_owned();
+    format!("{cpu} ({} threads)", rayon::current_num_threads())
+}
+
+fn picture(device: Device) -> String {
+    let device = match device {
+        Device::Cpu => "cpu",
+        Device::Gpu => "gpu",
+    };
+    format!("{}.svg", file_stem(&format!("time-against-error-{device}")))
+}
+
+/// Name of a row, with the form of its shader where that is not the usual one.
+fn label(cost: &Cost) -> String {
+    let name = cost.method.strip_prefix("neural:").unwrap_or(&cost.method);
+    match cost.format {
+        Some(format) if format != Format::Wgsl.name() => format!("{name} ({format})"),
+        _ => name.to_owned(),
+    }
+}
+
+/// The samples that the front is of.
+fn times(table: &Table, cost: &Cost) -> Summary {
+    match (&cost.passes, table.front_is_of) {
+        (Some(passes), FrontTime::Weights) => Summary::of(&passes.weights),
+        _ => Summary::of(&cost.both),
+    }
+}
+
+fn row_json(scene: &str, table: &Table, c: &Cost) -> Value {
+    let per_fragment = |seconds: f64| 1e9 * seconds / c.fragments as f64;
+    let s = times(table, c);
+    let both = Summary::of(&c.both);
+    let row = json!({
+        "benchmark": "methods", "scene": scene, "method": c.method, "network": c.network, "format": c.format, "adapter": c.adapter,
+        "arithmetic": c.arithmetic, "clock": c.clock.name(), "fragments": c.fragments, "bits_per_pixel": c.bits_per_pixel,
+        "transmittance_mse": c.transmittance_mse, "image_mse": c.image_mse, "flip_mean": c.flip_mean, "nonfinite": c.nonfinite,
+        "image_nonfinite": c.image_nonfinite, "on_front": c.on_front,
+        "seconds": both.median, "nanoseconds_per_fragment": per_fragment(both.median), "raw_seconds": c.both,
+        "front_time": match table.front_is_of { FrontTime::Weights => "seconds_weights", FrontTime::Both => "seconds" },
+        "min_seconds": s.min, "max_seconds": s.max, "mad_seconds": s.mad,
+        "calls_per_repetition": c.calls, "repetitions": c.both.len(), "threads": rayon::current_num_threads(),
+    });
+    let Some(passes) = &c.passes else { return row };
+    let (accumulate, weights) = (Summary::of(&passes.accumulate).median, Summary::of(&passes.weights).median);
+    let apart = json!({
+        "seconds_accumulate": accumulate, "seconds_weights": weights,
+        "nanoseconds_per_fragment_accumulate": per_fragment(accumulate), "nanoseconds_per_fragment_weights": per_fragment(weights),
+        "raw_seconds_accumulate": passes.accumulate, "raw_seconds_weights": passes.weights,
+    });
+    merged(row, apart)
+}
+
+/// One adapter's methods, the fastest first.
+fn table_text(t: &Table, repeat: usize) -> String {
+    let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| match x {
+        None => "-".to_owned(),
+        Some(x) if x.is_nan() => "NaN".to_owned(),
+        Some(x) => text(x),
+    };
+    let nanoseconds = |seconds: f64, c: &Cost| format!("{:.1}", 1e9 * seconds / c.fragments as f64);
+    let mut rows = vec![cells([
+        "",
+        "method",
+        "pass 2 ns",
+        "min",
+        "max",
+        "pass 1 ns",
+        "both ns",
+        "image MSE x1e-4",
+        "FLIP",
+        "T-MSE",
+        "non-finite",
+        "bits/pixel",
+    ])];
+    for c in &t.costs {
+        let median = |samples: Option<&Vec<f64>>| samples.map_or("-".to_owned(), |s| nanoseconds(Summary::of(s).median, c));
+        let s = times(t, c);
+        rows.push(vec![
+            if c.on_front { "*" } else { "" }.to_owned(),
+            label(c),
+            median(c.passes.as_ref().map(|p| &p.weights)),
+            nanoseconds(s.min, c),
+            nanoseconds(s.max, c),
+            median(c.passes.as_ref().map(|p| &p.accumulate)),
+            median(Some(&c.both)),
+            number(c.image_mse, &|x| format!("{:.4}", x * 1e4)),
+            number(c.flip_mean, &|x| format!("{x:.4}")),
+            number(c.transmittance_mse, &|x| format!("{x:.2e}")),
+            c.nonfinite.to_string(),
+            if c.bits_per_pixel == u32::MAX { "unbounded".to_owned() } else { c.bits_per_pixel.to_string() },
+        ]);
+    }
+    let (time, of) = match t.front_is_of {
+        FrontTime::Weights => ("pass 2", "min and max are of pass 2"),
+        FrontTime::Both => ("both passes", "min and max are of both passes"),
+    };
+    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) { "image MSE" } else { "T-MSE" };
+    let what = match t.front_is_of {
+        FrontTime::Weights => format!(
+            "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1: what loads, stores and the composite cost everybody."
+        ),
+        FrontTime::Both => {
+            "Classic methods are this program's f64 reference code, not SIMD; networks f32 SIMD, their passes not apart. For a fair race see a GPU."
+                .to_owned()
+        }
+    };
+    let left: String = t.left_out.iter().map(|l| format!("left out: {}, {}\n", l.method, l.why)).collect();
+    format!(
+        "{}, {}\n{}ns a fragment, medians of {repeat} repetitions by turns; {of}. *: nothing else is as fast in {time} at as small an {error}.\n{what}\n{left}",
+        t.adapter,
+        t.clock.name(),
+        table(&rows)
+    )
+}
+
+/// Time against error of one adapter.
+fn chart(scene: &str, t: &Table) -> String {
+    let points: Vec<Point> = t
+        .costs
+        .iter()
+        .filter(|c| c.method != NONE)
+        .map(|c| Point {
+            label: label(c),
+            time: 1e9 * t.time(c) / c.fragments as f64,
+            error: c.error().unwrap_or(f64::NAN),
+            on_front: c.on_front,
+            network: c.network.is_some(),
+        })
+        .collect();
+    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) { "image MSE" } else { "T-MSE" };
+    let undrawn: Vec<String> =
+        points.iter().filter(|p| !is_drawn(p)).map(|p| format!("{} ({})", p.label, if p.error == 0.0 { "exact" } else { "NaN" })).collect();
+    let empty = t.costs.iter().find(|c| c.method == NONE).map(|c| format!("An empty pass 2 takes {:.1} ns. ", 1e9 * t.time(c) / c.fragments as f64));
+    let missing = if undrawn.is_empty() { String::new() } else { format!("Not drawn: {}.", undrawn.join(", ")) };
+    let clock = match t.clock {
+        Clock::Device => "device timestamps",
+        Clock::Wall => "wall clock",
+    };
+    let time = match t.front_is_of {
+        FrontTime::Weights => "pass 2",
+        FrontTime::Both => "both passes",
+    };
+    let captions = Captions {
+        title: format!("{scene} on {}", t.adapter),
+        time: format!("{time}, ns a fragment ({clock})"),
+        error: error.to_owned(),
+        foot: format!("{}{missing}", empty.unwrap_or_default()),
+    };
+    svg(&captions, &points)
+}

@@ -1,0 +1,11 @@
+// What every pass of a frame knows.
+struct OitFrame {
+    // What oit_depth measures by: least and greatest v of the scene, or the camera's planes.
+    range: vec2<f32>,
+    // Columns and rows of the image.
+    size: vec2<u32>,
+    // Linear colour behind everything.
+    background: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> oit_frame: OitFrame;

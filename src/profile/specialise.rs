@@ -1,0 +1,434 @@
+//! Lossy specialisation: a network is retrained on one scene's own rows and made smaller for as long as an error is kept.
+//!
+//! Some of the scene's tiles are held out: no row of theirs is trained on, and a smaller network is accepted only if it keeps the error on them as well as on the whole. They are
+//! of the same scene all the same, so that what comes out is for that scene and those like it.
+
+use super::network::activations;
+use super::{Errors, ProfileError, Scene};
+use crate::dataset::build::normalise;
+use crate::dataset::{Batch, Blocks, Rows};
+use crate::features::{Extractor, Target};
+use crate::model::{Dense, Mlp};
+use crate::numeric::rng::stream;
+use crate::oit::neural::Neural;
+use crate::train::{Backend, TrainConfig};
+use rand::RngExt;
+use rand::seq::SliceRandom;
+use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::json;
+
+/// Keeps the random numbers of holding out and of shuffling apart from all others.
+const PURPOSE: u64 = 0x1008;
+
+/// Sides of the tiles that are held out together \[pixels\]: neighbours look alike.
+const TILE: usize = super::facts::TILE as usize;
+
+/// Fewest rows worth fitting to.
+pub const LEAST_ROWS: usize = 1000;
+
+/// How a network is fitted to a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Plan {
+    /// The error that must be kept: of the image, or of transmittance where there is none; the network's own where none.
+    pub target_error: Option<f64>,
+    /// Share of the tiles that are held out.
+    pub held_out: f64,
+    /// Rows that each size learns from, counted as often as they are visited.
+    pub visits: u64,
+    /// Most passes over the rows for one size.
+    pub epochs: u64,
+    /// Most sizes that are tried.
+    pub attempts: usize,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Self { target_error: None, held_out: 0.2, visits: 60_000_000, epochs: 400, attempts: 10, seed: 1 }
+    }
+}
+
+/// A size that was tried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Attempt {
+    /// Its sizes: "7-32-16-1".
+    pub network: String,
+    /// Multiply-adds of one evaluation.
+    pub multiply_adds: u64,
+    /// Error on the whole scene.
+    pub error: f64,
+    /// Error on what was held out.
+    pub error_held_out: f64,
+    /// Whether it keeps the error.
+    pub kept: bool,
+    /// Time of fitting it \[s\].
+    pub seconds: f64,
+}
+
+/// A network fitted to a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Specialised {
+    /// The smallest that keeps the error; the retrained one where none does.
+    pub mlp: Mlp,
+    /// What was to be kept on the whole scene.
+    pub target_error: f64,
+    /// What was to be kept on what was held out: as much better or worse than the first network there as on the whole.
+    pub target_held_out: f64,
+    /// The network that it began with.
+    pub before: Attempt,
+    /// Both errors of that network.
+    pub errors_before: Errors,
+    /// Every size that was tried, in that order.
+    pub attempts: Vec<Attempt>,
+    /// The attempt that was chosen.
+    pub chosen: usize,
+    /// Both errors of it.
+    pub errors_after: Errors,
+    /// Rows of features that were trained on, and that were held out.
+    pub rows: [usize; 2],
+    /// All of it \[s\].
+    pub seconds: f64,
+}
+
+/// The scene as its network sees it.
+struct Task<'a> {
+    scene: &'a Scene<'a>,
+    /// Answers that need no network, and room for the others.
+    base: Vec<f32>,
+    /// Fragments that the network answers.
+    asked: Vec<usize>,
+    features: Vec<f32>,
+    /// Whether each pixel is held out.
+    held_out: Vec<bool>,
+}
+
+impl<'a> Task<'a> {
+    fn new(scene: &'a Scene<'a>, mlp: &Mlp, plan: &Plan) -> Result<Self, ProfileError> {
+        let list = scene.list;
+        let extractor = Extractor::for_list(mlp.feature_set(), list, scene.context.planes, scene.context.depth_range)?;
+        let look = extractor.list(list, 0..list.pixels())?;
+        let asked = (0..list.len()).filter(|&i| look.known[i].is_nan()).collect();
+        // Tiles of an image; of another list runs of as many pixels.
+        let width = list.size().map_or(list.pixels(), |s| s.0 as usize).max(1);
+        let tile_of = |p: usize| if list.size().is_some() { (p / width / TILE, p % width / TILE) } else { (0, p / (TILE * TILE)) };
+        let out = |p: usize| {
+            let (y, x) = tile_of(p);
+            stream(plan.seed, PURPOSE, ((y as u64) << 32) | x as u64).random_range(0.0..1.0) < plan.held_out
+        };
+        let held_out = (0..list.pixels()).into_par_iter().map(out).collect();
+        Ok(Self { scene, base: look.known, asked, features: look.features, held_out })
+    }
+
+    /// Rows to train on, weighted by what an error of each does to the image.
+    fn rows(&self, mlp: &Mlp) -> (Rows, usize) {
+        let list = self.scene.list;
+        let width = mlp.feature_set().width();
+        let mut rows = Rows { feature_set: mlp.feature_set(), features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
+        let mut p = 0;
+        for (row, &i) in self.features.chunks_exact(width).zip(&self.asked) {
+            while list.offsets()[p + 1] <= i as u64 {
+                p += 1;
+            }
+            if self.held_out[p] {
+                continue;
+            }
+            rows.features.extend_from_slice(row);
+            rows.targets.push(self.scene.transmittance[i] as f32);
+            rows.weights.push(self.weight(p, i));
+            rows.pixels.push(p as u32);
+        }
+        // Nothing is left out altogether: another light may fall on it.
+        normalise(&mut [&mut rows.weights]);
+        rows.weights.iter_mut().for_each(|w| *w = 0.9 * *w + 0.1);
+        let held_out = self.asked.len() - rows.len();
+        (rows, held_out)
+    }
+
+    /// Square of the image's derivative by the answer to a fragment: a_i |C_i − m| (1 − e^−b_0)/Σ a T, m the pixel's own colour.
+    fn weight(&self, p: usize, i: usize) -> f32 {
+        let list = self.scene.list;
+        let a = f64::from(list.alpha()[i]);
+        let Some(color) = list.color() else { return (a * a) as f32 };
+        let (mut sum, mut total) = ([0.0; 3], 0.0);
+        for j in list.range(p) {
+            let w = f64::from(list.alpha()[j]) * self.scene.transmittance[j];
+            total += w;
+            sum.iter_mut().zip(color[j]).for_each(|(s, c)| *s += w * f64::from(c));
+        }
+        let distance: f64 = (0..3).map(|c| (f64::from(color[i][c]) - sum[c] / total.max(1e-9)).powi(2)).sum();
+        // Errors of a pixel's fragments go together, so that likeness of colour does not take all weight away.
+        (a * a * (distance + 0.02)) as f32
+    }
+
+    /// Answers of a network to the whole scene.
+    fn answers(&self, mlp: &Mlp) -> Vec<f32> {
+        let mut all = self.base.clone();
+        for (&i, t) in self.asked.iter().zip(mlp.predict(&self.features)) {
+            all[i] = t;
+        }
+        all
+    }
+
+    /// Error on the whole scene, and on what was held out.
+    fn errors(&self, mlp: &Mlp) -> Result<[f64; 2], ProfileError> {
+        let (scene, answers) = (self.scene, self.answers(mlp));
+        let list = scene.list;
+        let (mut sums, mut counts) = ([0.0; 2], [0.0; 2]);
+        let mut add = |p: usize, sum: f64, count: f64| {
+            for (k, counts_here) in [true, self.held_out[p]].into_iter().enumerate() {
+                if counts_here {
+                    sums[k] += sum;
+                    counts[k] += count;
+                }
+            }
+        };
+        if let Ok(truth) = scene.truth.image() {
+            let squares = |p: usize| -> f64 { scene.color_of(p, &answers).iter().zip(truth.pixels()[p]).map(|(a, b)| (a - b).powi(2)).sum() };
+            let squares: Vec<f64> = (0..list.pixels()).into_par_iter().with_min_len(256).map(squares).collect();
+            squares.into_iter().enumerate().for_each(|(p, s)| add(p, s, 3.0));
+        } else {
+            for p in 0..list.pixels() {
+                let of = list.range(p);
+                add(p, of.clone().map(|i| (f64::from(answers[i]) - scene.transmittance[i]).powi(2)).sum(), of.len() as f64);
+            }
+        }
+        Ok([0, 1].map(|k| sums[k] / f64::max(counts[k], 1.0)))
+    }
+}
+
+fn flat(mlp: &Mlp) -> Vec<f32> {
+    mlp.layers().iter().flat_map(|l| l.weights.iter().chain(&l.biases)).copied().collect()
+}
+
+fn shapes(mlp: &Mlp) -> Vec<(usize, usize)> {
+    mlp.layers().iter().map(|l| (l.inputs(), l.outputs())).collect()
+}
+
+fn with_parameters(mlp: &Mlp, parameters: &[f32]) -> Result<Mlp, ProfileError> {
+    let mut rest = parameters;
+    let mut layers = Vec::new();
+    for (i, o) in shapes(mlp) {
+        let (weights, after) = rest.split_at(i * o);
+        let (biases, after) = after.split_at(o);
+        rest = after;
+        layers.push(Dense::new(i, o, weights.to_vec(), biases.to_vec())?);
+    }
+    Ok(Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone())?)
+}
+
+/// Retrains a network from its own weights.
+fn fit(mlp: &Mlp, rows: &Rows, plan: &Plan, round: u64, stop: &dyn Fn() -> bool) -> Result<Mlp, ProfileError> {
+    const BATCH: usize = 4096;
+    const RATE: f64 = 6e-3;
+    const WARM_UP: f64 = 100.0;
+    let config = TrainConfig {
+        hidden: mlp.sizes()[1..mlp.sizes().len() - 1].to_vec(),
+        epochs: 1,
+        batch: BATCH,
+        learning_rate: RATE,
+        schedule: Default::default(),
+        warmup_steps: 0,
+        seeds: 1,
+        beta1: 0.9,
+        beta2: 0.999,
+        epsilon: 1e-7,
+        checkpoint_every: 1,
+    };
+    let mut fitted = Backend::Fused.optimiser(mlp.feature_set(), &shapes(mlp), &flat(mlp), &config);
+    let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+    order.shuffle(&mut stream(plan.seed, PURPOSE, 1 << 60));
+    let blocks = Blocks::of(rows, &order);
+    let mut order: Vec<u32> = (0..blocks.len() as u32).collect();
+    let epochs = (plan.visits / rows.len() as u64).clamp(1, plan.epochs);
+    let steps = epochs * order.chunks(BATCH / 16).len() as u64;
+    let mut step = 0;
+    for epoch in 0..epochs {
+        order.shuffle(&mut stream(plan.seed, PURPOSE, (1 << 61) | round << 32 | epoch));
+        for batch in order.chunks(BATCH / 16) {
+            if stop() {
+                return Err(ProfileError::Interrupted);
+            }
+            let along = step as f64 / steps as f64;
+            let rate = RATE * (step as f64 / WARM_UP).min(1.0) * 0.5 * (1.0 + libm::cos(std::f64::consts::PI * along));
+            step += 1;
+            fitted.step(Batch { blocks: &blocks, order: batch }, rate);
+        }
+    }
+    let parameters = fitted.parameters();
+    if parameters.iter().any(|p| !p.is_finite()) {
+        return Err(ProfileError::Diverged);
+    }
+    with_parameters(mlp, &parameters)
+}
+
+/// A network with fewer units in its hidden layers: those stay that do most, the mean of what the others did goes into biases.
+///
+/// What a unit does is measured by the spread of its value over rows, times the length of its outgoing weights.
+fn shrink(mlp: &Mlp, rows: &[f32], hidden: &[usize]) -> Result<Mlp, ProfileError> {
+    let width = mlp.feature_set().width();
+    let sizes = mlp.sizes();
+    let stride = (rows.len() / width / 20_000).max(1);
+    let mut sums: Vec<Vec<[f64; 2]>> = sizes[1..sizes.len() - 1].iter().map(|&n| vec![[0.0; 2]; n]).collect();
+    let mut count = 0.0;
+    for row in rows.chunks_exact(width).step_by(stride) {
+        count += 1.0;
+        activations(mlp, row, |layer, values| {
+            for (sum, &v) in sums[layer].iter_mut().zip(values) {
+                sum[0] += f64::from(v);
+                sum[1] += f64::from(v) * f64::from(v);
+            }
+        });
+    }
+    let layers = mlp.layers();
+    let mut kept: Vec<Vec<usize>> = vec![(0..width).collect()];
+    let mut means = Vec::new();
+    for (l, sums) in sums.iter().enumerate() {
+        let mean: Vec<f64> = sums.iter().map(|s| s[0] / count).collect();
+        let out = |u: usize| (0..layers[l + 1].outputs()).map(|o| f64::from(layers[l + 1].weight(u, o)).powi(2)).sum::<f64>();
+        let use_of = |u: usize| (sums[u][1] / count - mean[u] * mean[u]).max(0.0) * out(u);
+        let mut units: Vec<usize> = (0..sums.len()).collect();
+        units.sort_by(|&a, &b| use_of(b).total_cmp(&use_of(a)).then(a.cmp(&b)));
+        units.truncate(hidden[l]);
+        units.sort_unstable();
+        kept.push(units);
+        means.push(mean);
+    }
+    kept.push(vec![0]);
+    let mut made = Vec::new();
+    for (l, dense) in layers.iter().enumerate() {
+        let weights = kept[l].iter().flat_map(|&i| kept[l + 1].iter().map(move |&o| dense.weight(i, o))).collect();
+        let lost = |o: usize| match l {
+            0 => 0.0,
+            _ => (0..dense.inputs()).filter(|i| !kept[l].contains(i)).map(|i| means[l - 1][i] * f64::from(dense.weight(i, o))).sum(),
+        };
+        let biases = kept[l + 1].iter().map(|&o| (f64::from(dense.biases[o]) + lost(o)) as f32).collect();
+        made.push(Dense::new(kept[l].len(), kept[l + 1].len(), weights, biases)?);
+    }
+    Ok(Mlp::new(mlp.name(), mlp.feature_set(), made, mlp.provenance.clone())?)
+}
+
+fn multiply_adds(width: usize, hidden: &[usize]) -> usize {
+    let sizes: Vec<usize> = std::iter::once(width).chain(hidden.iter().copied()).chain([1]).collect();
+    sizes.windows(2).map(|s| s[0] * s[1]).sum()
+}
+
+/// Hidden sizes in the proportions of `hidden` with at most so many multiply-adds; none where no unit can go.
+fn smaller(width: usize, hidden: &[usize], most: usize) -> Option<Vec<usize>> {
+    (1..=400).rev().map(|s| hidden.iter().map(|&h| (h * s / 400).max(1)).collect::<Vec<_>>()).find(|h| multiply_adds(width, h) <= most)
+}
+
+/// Fits a network to a scene and makes it as small as the error allows; `progress` is told what is tried.
+///
+/// # Errors
+/// [`ProfileError`] where the network is asked about too little, or does not answer with transmittances.
+pub fn specialise(
+    scene: &Scene<'_>,
+    mlp: &Mlp,
+    plan: &Plan,
+    stop: &dyn Fn() -> bool,
+    progress: &dyn Fn(usize, &str),
+) -> Result<Specialised, ProfileError> {
+    let start = std::time::Instant::now();
+    if mlp.feature_set().target() != Target::Transmittance {
+        return Err(ProfileError::NoTransmittance { model: mlp.name().to_owned() });
+    }
+    if let Some(target) = plan.target_error
+        && !(target > 0.0 && target.is_finite())
+    {
+        return Err(ProfileError::TargetError(target));
+    }
+    let task = Task::new(scene, mlp, plan)?;
+    let (rows, held_out) = task.rows(mlp);
+    if rows.len() < LEAST_ROWS {
+        return Err(ProfileError::TooFew { rows: task.asked.len(), least: LEAST_ROWS, what: "fit a network to them" });
+    }
+    let attempt = |mlp: &Mlp, [error, error_held_out]: [f64; 2], kept, seconds| Attempt {
+        network: mlp.shape(),
+        multiply_adds: mlp.multiply_adds() as u64,
+        error,
+        error_held_out,
+        kept,
+        seconds,
+    };
+    let first = task.errors(mlp)?;
+    let target_error = plan.target_error.unwrap_or(first[0]);
+    let target_held_out = target_error * first[1] / first[0].max(f64::MIN_POSITIVE);
+    let keeps = |errors: [f64; 2]| errors[0] <= target_error && errors[1] <= target_held_out;
+    let before = attempt(mlp, first, keeps(first), 0.0);
+
+    let width = mlp.feature_set().width();
+    let mut attempts: Vec<Attempt> = Vec::new();
+    // The smallest network that keeps the error, the one that shrinking goes on from, and the multiply-adds that are known to be too few.
+    let mut best: Option<(usize, Mlp)> = None;
+    let mut from = mlp.clone();
+    let mut too_few = 0;
+    let mut next = mlp.sizes()[1..mlp.sizes().len() - 1].to_vec();
+    while attempts.len() < plan.attempts {
+        let begun = std::time::Instant::now();
+        let start_from = if attempts.is_empty() { from.clone() } else { shrink(&from, &rows.features, &next)? };
+        progress(attempts.len(), &start_from.shape());
+        let fitted = fit(&start_from, &rows, plan, attempts.len() as u64, stop)?;
+        let errors = task.errors(&fitted)?;
+        let kept = keeps(errors);
+        attempts.push(attempt(&fitted, errors, kept, begun.elapsed().as_secs_f64()));
+        let size = fitted.multiply_adds();
+        if kept {
+            best = Some((attempts.len() - 1, fitted.clone()));
+            from = fitted;
+        } else if attempts.len() == 1 {
+            // Retrained at its own size it is still not good enough: smaller ones will not be.
+            best = None;
+            from = fitted;
+            break;
+        } else {
+            too_few = size;
+        }
+        // Three quarters for as long as the error is kept, then the middle of what is too few and what is enough.
+        let enough = from.multiply_adds();
+        let most = if too_few == 0 { enough * 3 / 4 } else { (enough + too_few) / 2 };
+        let sizes = from.sizes();
+        match smaller(width, &sizes[1..sizes.len() - 1], most) {
+            Some(hidden) if !hidden.is_empty() && multiply_adds(width, &hidden) > too_few && multiply_adds(width, &hidden) < enough => next = hidden,
+            _ => break,
+        }
+        if too_few > 0 && (enough - too_few) * 12 < enough {
+            break;
+        }
+    }
+    let (chosen, mut mlp_after) = best.unwrap_or((0, from));
+    let errors_before = scene.errors(&Neural::new(mlp.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
+    let errors_after = scene.errors(&Neural::new(mlp_after.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
+    let chosen_attempt = &attempts[chosen];
+    mlp_after.provenance.derived = Some(json!({
+        "how": "specialised: retrained on the fragments of one scene and made smaller while an error was kept; for that scene and those like it",
+        "from": mlp.name(),
+        "from_network": mlp.shape(),
+        "plan": plan,
+        "fragments": scene.list.len(),
+        "training_rows": rows.len(),
+        "held_out_rows": held_out,
+        "target_error": target_error,
+        "error": chosen_attempt.error,
+        "error_held_out": chosen_attempt.error_held_out,
+        "error_before": before.error,
+        "error_before_held_out": before.error_held_out,
+    }));
+    // What was said of the first network's errors does not hold of this one.
+    let provenance = &mut mlp_after.provenance;
+    (provenance.training_loss, provenance.validation_loss) = (None, None);
+    (provenance.transmittance_mse, provenance.transmittance_worst_error) = (None, None);
+    Ok(Specialised {
+        mlp: mlp_after,
+        target_error,
+        target_held_out,
+        before,
+        errors_before,
+        attempts,
+        chosen,
+        errors_after,
+        rows: [rows.len(), held_out],
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}

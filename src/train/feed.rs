@@ -1,0 +1,223 @@
+//! What every epoch learns from: rows in shuffled blocks, some of them replaced by those of fresh pixels where the dataset says so.
+//!
+//! The rows stand in segments, a ring: before epoch e > 1, segment e − 2 (modulo their number) is filled anew from pixels (e − 1) · 2^32 on. So what an
+//! epoch learns from depends on the seed and the epoch alone, and an interrupted training can go on.
+//!
+//! Whatever an epoch needs is made while the steps of the epoch before are taken, one segment ahead and never more: small tasks on the threads that train,
+//! which take one where a step leaves them nothing to do. No thread waits for another while anything is left to be made.
+
+use super::Optimiser;
+use super::schedule::TrainError;
+use crate::dataset::build::normalise;
+use crate::dataset::stream::Making;
+use crate::dataset::{Batch, Blocks, Dataset, DatasetError, RowStream};
+use crate::numeric::lanes::LANES;
+use crate::numeric::rng::stream;
+use crate::synth::Purpose;
+use rand::seq::SliceRandom;
+use rayon::Scope;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Keeps the random numbers of shuffling apart from all others.
+const PURPOSE: u64 = 0x1002;
+
+/// Rows to learn from, epoch after epoch.
+pub struct Feed {
+    blocks: Blocks,
+    blocks_of_step: usize,
+    source: Source,
+    next: Option<Prepared>,
+}
+
+/// All that decides what an epoch learns from.
+struct Source {
+    seed: u64,
+    rows: usize,
+    blocks: usize,
+    segments: u64,
+    stream: Option<RowStream>,
+}
+
+/// What an epoch needs that the one before it did not.
+struct Prepared {
+    epoch: u64,
+    order: Vec<u32>,
+    /// Fresh rows, and the place of the first of them.
+    fresh: Option<(usize, Blocks)>,
+}
+
+impl Feed {
+    /// The feed as it stands after so many epochs, for steps of `batch` rows.
+    ///
+    /// # Errors
+    /// [`TrainError::NoStream`] where fresh pixels are asked for and no distribution is known; [`TrainError::Dataset`] where it is invalid.
+    pub fn new(dataset: &Dataset, seed: u64, batch: usize, epochs: u64) -> Result<Self, TrainError> {
+        let rows = &dataset.training;
+        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+        order.shuffle(&mut stream(seed, PURPOSE, 0));
+        let blocks = Blocks::of(rows, &order);
+        let manifest = &dataset.manifest;
+        let refresh = manifest.dataset.refresh;
+        let stream = match (refresh > 0.0, &manifest.synth) {
+            (false, _) => None,
+            (true, None) => return Err(TrainError::NoStream),
+            (true, Some(synth)) => {
+                let stream = RowStream::new(manifest.seed, synth, &manifest.dataset, Purpose::Training)?;
+                Some(stream.expecting(rows.len(), manifest.training.pixels))
+            }
+        };
+        let segments = if refresh > 0.0 { (1.0 / refresh).round().min(rows.len() as f64) as u64 } else { 1 };
+        let source = Source { seed, rows: rows.len(), blocks: blocks.len(), segments, stream };
+        let mut feed = Self { blocks, blocks_of_step: batch / LANES, source, next: None };
+        for epoch in (epochs + 1).saturating_sub(segments).max(2)..=epochs {
+            let prepared = feed.source.prepare(epoch)?;
+            feed.take_in(&prepared);
+        }
+        Ok(feed)
+    }
+
+    /// Rows of an epoch.
+    pub fn rows(&self) -> usize {
+        self.source.rows
+    }
+
+    /// Steps of an epoch.
+    pub fn steps(&self) -> u64 {
+        self.source.blocks.div_ceil(self.blocks_of_step) as u64
+    }
+
+    /// Takes the steps of an epoch, `rate` giving the step size of each, from 1; the mean squared error over its rows, while they were being learnt from,
+    /// is returned. Where `more` says so, what the next epoch needs is made meanwhile. `stop` is asked before every step; none is returned once it says true.
+    ///
+    /// # Errors
+    /// [`TrainError::Dataset`] where fresh pixels have no rows.
+    pub fn epoch(
+        &mut self,
+        epoch: u64,
+        more: bool,
+        fitted: &mut dyn Optimiser,
+        rate: &(dyn Fn(u64) -> f64 + Sync),
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<f64>, TrainError> {
+        let prepared = match self.next.take() {
+            Some(next) if next.epoch == epoch => next,
+            _ => self.source.prepare(epoch)?,
+        };
+        self.take_in(&prepared);
+        let (blocks, order) = (&self.blocks, &prepared.order);
+        let preparation = Preparation::new(&self.source, epoch + 1);
+        let squared_error = rayon::scope(|scope| {
+            if more {
+                preparation.spawn(scope);
+            }
+            let mut squared_error = 0.0;
+            for (step, order) in (1..).zip(order.chunks(self.blocks_of_step)) {
+                if stop() {
+                    preparation.cancelled.store(true, Ordering::Relaxed);
+                    return None;
+                }
+                let batch = Batch { blocks, order };
+                squared_error += fitted.step(batch, rate(step)) * batch.rows() as f64;
+            }
+            Some(squared_error)
+        });
+        let Some(squared_error) = squared_error else { return Ok(None) };
+        if more {
+            self.next = Some(preparation.finish()?);
+        }
+        Ok(Some(squared_error / self.source.rows as f64))
+    }
+
+    fn take_in(&mut self, prepared: &Prepared) {
+        if let Some((start, fresh)) = &prepared.fresh {
+            self.blocks.splice(*start, fresh);
+        }
+    }
+}
+
+impl Source {
+    /// The rows that fresh ones replace before an epoch, and the pixel that they start from.
+    fn segment(&self, epoch: u64) -> (Range<usize>, u64) {
+        let (segment, rows) = ((epoch - 2) % self.segments, self.rows as u64);
+        ((segment * rows / self.segments) as usize..((segment + 1) * rows / self.segments) as usize, (epoch - 1) << 32)
+    }
+
+    /// Makes what an epoch needs on all threads.
+    fn prepare(&self, epoch: u64) -> Result<Prepared, DatasetError> {
+        let preparation = Preparation::new(self, epoch);
+        rayon::scope(|scope| preparation.spawn(scope));
+        preparation.finish()
+    }
+}
+
+/// What an epoch needs, in the making.
+struct Preparation<'a> {
+    source: &'a Source,
+    epoch: u64,
+    /// Fresh rows where there are any, and which places they take.
+    making: Option<(Making<'a>, Range<usize>)>,
+    /// Tasks of it that are not done.
+    left: AtomicUsize,
+    cancelled: AtomicBool,
+    order: Mutex<Vec<u32>>,
+    fresh: Mutex<Option<Result<Blocks, DatasetError>>>,
+}
+
+impl<'a> Preparation<'a> {
+    fn new(source: &'a Source, epoch: u64) -> Self {
+        let making = source.stream.as_ref().filter(|_| epoch >= 2).map(|stream| {
+            let (range, pixel) = source.segment(epoch);
+            (Making::new(stream, pixel, range.len(), usize::MAX), range)
+        });
+        let left = AtomicUsize::new(making.as_ref().map_or(0, |(making, _)| making.tasks()));
+        Self { source, epoch, making, left, cancelled: AtomicBool::new(false), order: Mutex::default(), fresh: Mutex::default() }
+    }
+
+    /// Hands all work to the scope's threads.
+    fn spawn<'scope>(&'scope self, scope: &Scope<'scope>) {
+        scope.spawn(|_| self.shuffle());
+        let Some((making, range)) = &self.making else { return };
+        for task in 0..making.tasks() {
+            scope.spawn(move |scope| {
+                if self.cancelled.load(Ordering::Relaxed) {
+                    return;
+                }
+                making.run(task);
+                if self.left.fetch_sub(1, Ordering::AcqRel) == 1 {
+                    // A task of its own, so that the thread that takes the steps goes on with them where another is free.
+                    scope.spawn(|_| self.place(making, range.clone()));
+                }
+            });
+        }
+    }
+
+    /// The order of the blocks.
+    fn shuffle(&self) {
+        let mut order: Vec<u32> = (0..self.source.blocks as u32).collect();
+        order.shuffle(&mut stream(self.source.seed, PURPOSE, self.epoch));
+        *self.order.lock().unwrap_or_else(PoisonError::into_inner) = order;
+    }
+
+    /// Puts fresh rows in random order, as they will stand among the others.
+    fn place(&self, making: &Making<'_>, range: Range<usize>) {
+        let placed = making.finish().map(|mut parts| {
+            normalise(&mut parts.iter_mut().map(|part| part.weights_mut()).collect::<Vec<_>>());
+            let mut order: Vec<(u32, u32)> = (0..).zip(&parts).flat_map(|(p, part)| (0..part.len() as u32).map(move |row| (p, row))).collect();
+            order.shuffle(&mut stream(self.source.seed, PURPOSE, (1 << 63) | self.epoch));
+            let width = making.width();
+            Blocks::from_fn(width, range.start % LANES, range.len(), |at| {
+                let (part, row) = order[at];
+                parts[part as usize].row(row as usize, width)
+            })
+        });
+        *self.fresh.lock().unwrap_or_else(PoisonError::into_inner) = Some(placed);
+    }
+
+    fn finish(self) -> Result<Prepared, DatasetError> {
+        let order = self.order.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let fresh = self.fresh.into_inner().unwrap_or_else(PoisonError::into_inner).transpose()?;
+        Ok(Prepared { epoch: self.epoch, order, fresh: self.making.map(|(_, range)| range.start).zip(fresh) })
+    }
+}
