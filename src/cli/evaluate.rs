@@ -11,6 +11,7 @@ use crate::evaluate::{MethodResult, Truth};
 use crate::export::Format;
 use crate::gpu::pipeline::Storage;
 use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::features::MomentFrame;
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
@@ -36,6 +37,9 @@ pub struct Evaluate {
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
+    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass has found.
+    #[arg(long, requires = "model")]
+    prepass: bool,
     /// Folder for images, contact sheets and results.json.
     #[arg(long)]
     out: PathBuf,
@@ -221,6 +225,11 @@ impl Evaluate {
         for path in &self.model {
             let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
             methods.push(Asked { method, demanded: true, shader: self.gpu.then(|| shader(path)).transpose()? });
+            let after = Neural::new(file::load(path)?).with_skip(self.skip.into()).with_frame(MomentFrame::Pixel);
+            // A network whose moments are not of logarithmic depth has no other frame.
+            if self.prepass && after.frame() == MomentFrame::Pixel {
+                methods.push(Asked { method: Box::new(after), demanded: true, shader: None });
+            }
         }
         Ok(methods)
     }

@@ -3,7 +3,7 @@
 use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
-use crate::features::OutputMeaning;
+use crate::features::{MomentFrame, OutputMeaning};
 use crate::features::passes::{Class, Tally};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write};
@@ -38,6 +38,9 @@ pub struct Predict {
     /// Which fragments to run the network for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
+    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too thin then.
+    #[arg(long)]
+    prepass: bool,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
@@ -76,7 +79,8 @@ impl Predict {
         let list = scene::read(&self.fragments)?;
         let shape = mlp.shape();
         let skip = Skip::from(self.skip);
-        let method = Neural::new(mlp).with_skip(skip);
+        let frame = if self.prepass { MomentFrame::Pixel } else { MomentFrame::Scene };
+        let method = Neural::new(mlp).with_skip(skip).with_frame(frame);
         let progress = ui.progress("predict", list.len() as u64);
         let start = Instant::now();
         let answered = method.answers(&list, Context { planes, ..Context::default() }, &|n| progress.set(n, "fragments"));
@@ -92,7 +96,7 @@ impl Predict {
                 vec![json!({
                     "network": shape, "fragments": list.len(), "pixels": list.pixels(), "depth_complexity": list.depth_complexity(),
                     "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
-                    "seconds": seconds, "fragments_per_second": rate, "file": self.out, "skip": skip, "network_rows": tally.rows,
+                    "seconds": seconds, "fragments_per_second": rate, "file": self.out, "skip": skip, "frame": frame, "network_rows": tally.rows,
                     "seconds_pass_1": tally.seconds_pass_1, "seconds_pass_2": tally.seconds_pass_2, "fragments_by_class": by_class(&tally),
                 })],
             )?;

@@ -2,7 +2,9 @@
 
 use super::Verdict;
 use super::ui::{Ui, report, table};
-use crate::features::MomentFrame;
+use crate::export::Format;
+use crate::features::{FeatureSet, MomentFrame};
+use crate::gpu::{self, Gpu, MethodShader};
 use crate::model::{Mlp, file};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::oit::{Method, all_names, parse};
@@ -12,7 +14,7 @@ use crate::stress::random::{Counts, hunt};
 use crate::stress::rows;
 use crate::stress::subject::{TwoMoments, with_digits};
 use crate::stress::sweep::{self, Point};
-use crate::stress::{Case, Classic, Doubles, Execution, Promise, Report, Subject, measure};
+use crate::stress::{Case, Classic, Doubles, Execution, Fragments, Promise, Report, Subject, measure};
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -40,6 +42,9 @@ pub struct Stress {
     /// Also measure what moment_bias each storage needs.
     #[arg(long)]
     bias: bool,
+    /// Also run networks, and the classic methods that have a shader, on the GPU.
+    #[arg(long)]
+    gpu: bool,
     /// Folder for results.json and for charts of error against half-range, number of fragments and digits of storage.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -121,6 +126,8 @@ impl Stress {
         let mlps: Vec<Mlp> = self.model.iter().map(|path| file::load(path)).collect::<Result<_, _>>()?;
         let (networks, executions, classic) = (plain(&mlps)?, executions(&mlps)?, self.classic()?);
         let cases = self.cases()?;
+        let on_gpu = if self.gpu { self.on_gpu(&mlps)? } else { Vec::new() };
+        let executions = [executions, on_gpu].into_iter().flatten().collect::<Vec<_>>();
         let subjects: Vec<&Subject<'_>> = networks.iter().chain(&classic).chain(&executions).collect();
         let reports = run(ui, &cases, &subjects);
         let features: Vec<Report> = mlps.iter().map(rows::reports).collect::<Result<Vec<_>, _>>()?.concat();
@@ -185,6 +192,37 @@ impl Stress {
         }
         if self.methods == DEFAULT_METHODS || self.methods.iter().any(|name| name == "all") {
             subjects.extend(Classic::ALL.map(Classic::subject));
+        }
+        Ok(subjects)
+    }
+
+    /// Both passes in compute shaders, by the sources that `nmt export` writes.
+    fn on_gpu(&self, mlps: &[Mlp]) -> anyhow::Result<Vec<Subject<'static>>> {
+        let gpu = Gpu::shared()?;
+        let run = |shader: MethodShader| {
+            move |f: &Fragments| {
+                let list = f.list().map_err(|e| e.to_string())?;
+                let weights = gpu::list::weights(gpu, &shader, &list, f.context.planes, f.context.depth_range).map_err(|e| e.to_string())?;
+                Ok(weights.into_iter().map(f64::from).collect())
+            }
+        };
+        let mut subjects = Vec::new();
+        for mlp in mlps.iter().filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended) {
+            let promise = Subject::network(mlp, Execution::default())?.promise;
+            let shader = MethodShader::neural(mlp, Format::Wgsl)?;
+            subjects.push(Subject::new(format!("{} @ {}", shader.name, gpu.name()), promise, run(shader)).with_network_as_double(mlp));
+        }
+        let mut names: Vec<String> = Vec::new();
+        for name in &self.methods {
+            let plain = name.replace(":f32", "");
+            if !names.contains(&plain) {
+                names.push(plain);
+            }
+        }
+        for name in names {
+            let Some(shader) = MethodShader::classic(&name) else { continue };
+            let promise = if name.ends_with("+own") { Promise::Ends } else { Promise::None };
+            subjects.push(Subject::new(format!("{name} @ {}", gpu.name()), promise, run(shader)).with_method_as_double(parse(&name)?));
         }
         Ok(subjects)
     }

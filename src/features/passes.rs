@@ -4,14 +4,14 @@
 //! a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not
 //! on its company, and to leave out the network where its answer is not used changes no bit of the rest.
 
-use super::recentred::{LEAST_HALF_RANGE, PixelSums, Seen};
+use super::recentred::{LEAST_HALF_RANGE, PixelSums, Seen, is_thin, place_in_thin};
 use super::visible::{FAINT, LEAST_WEIGHT, first_hidden_depth};
-use super::wide::Fragments;
-use super::{Extractor, Kind, Storage};
+use super::wide::{Fragments, moment_depth};
+use super::{Extractor, Kind, MomentFrame, Storage};
 use crate::numeric::lanes::{LANES, Lanes, exp};
 use crate::pixel::{FragmentList, LogWarp, absorbance_lanes};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, mask32x16};
+use fearless_simd::{Level, dispatch, f32x16, mask32x16};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -101,6 +101,8 @@ struct Summed<const K: usize> {
     sums: PixelSums<f32, K>,
     c: f32,
     h: f32,
+    /// Whether places in its range are those of view depth.
+    thin: bool,
     /// Its first fragment, counted within the task.
     first: u32,
 }
@@ -108,9 +110,9 @@ struct Summed<const K: usize> {
 /// Vectors of fragments that wait together, so that what was written last has reached the cache before it is read.
 const VECTORS: usize = 4;
 
-/// Fragments that wait: z, A, b_0, n, c, h, then b_1..b_K.
+/// Fragments that wait: z, A, b_0, n, c, h, place in a thin pixel, then b_1..b_K.
 struct Queue<const K: usize> {
-    fixed: [[Lanes; VECTORS]; 6],
+    fixed: [[Lanes; VECTORS]; 7],
     b: [[Lanes; VECTORS]; K],
     /// The fragment, or [`DROPPED`] where it is known already: the network is run, its answer dropped.
     fragment: [u32; VECTORS * LANES],
@@ -122,13 +124,14 @@ struct Queue<const K: usize> {
 impl<const K: usize> Queue<K> {
     fn new() -> Self {
         let (fragment, pixel) = ([0; VECTORS * LANES], [0; VECTORS * LANES]);
-        Self { fixed: [[Lanes([1.0; LANES]); VECTORS]; 6], b: [[Lanes::ZERO; VECTORS]; K], fragment, pixel, len: 0 }
+        Self { fixed: [[Lanes([1.0; LANES]); VECTORS]; 7], b: [[Lanes::ZERO; VECTORS]; K], fragment, pixel, len: 0 }
     }
 
     #[inline(always)]
-    fn push(&mut self, z: f32, absorbance: f32, of: &Summed<K>, fragment: u32, pixel: usize) {
+    fn push(&mut self, view_z: f32, z: f32, absorbance: f32, of: &Summed<K>, fragment: u32, pixel: usize) {
         let (vector, lane) = (self.len / LANES, self.len % LANES);
-        for (lanes, value) in self.fixed.iter_mut().zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h]) {
+        let place = if of.thin { place_in_thin(view_z, of.sums.nearest, of.sums.farthest) } else { 2.0 };
+        for (lanes, value) in self.fixed.iter_mut().zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h, place]) {
             lanes[vector].0[lane] = value;
         }
         for (lanes, value) in self.b.iter_mut().zip(of.sums.b) {
@@ -145,8 +148,8 @@ impl<const K: usize> Queue<K> {
 
     #[inline(always)]
     fn load<S: Simd>(&self, simd: S, v: usize) -> Fragments<S, K> {
-        let [z, absorbance, b0, count, c, h] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
-        Fragments { z, absorbance, b0, b: std::array::from_fn(|k| self.b[k][v].load(simd)), count, c, h }
+        let [z, absorbance, b0, count, c, h, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
+        Fragments { z, absorbance, b0, b: std::array::from_fn(|k| self.b[k][v].load(simd)), count, c, h, place }
     }
 
     /// Empties it: first fragments and number of each vector of what stood there.
@@ -270,7 +273,7 @@ impl<const K: usize> Workspace<K> {
     fn ask(&mut self, task: &mut Task<'_, K>, network: &mut impl Network, of: &Summed<K>, fragment: usize, pixel: usize, deep: bool) {
         // No branch, which nobody could predict.
         let queue = &mut self.asked[usize::from(deep)];
-        queue.push(task.z[fragment], task.absorbance[fragment], of, fragment as u32, pixel);
+        queue.push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], of, fragment as u32, pixel);
         if queue.is_full() {
             self.flush(deep, task, network);
         }
@@ -278,7 +281,7 @@ impl<const K: usize> Workspace<K> {
 
     /// The network, whose answer is not used.
     fn run_for_nothing(&mut self, task: &mut Task<'_, K>, network: &mut impl Network, of: &Summed<K>, fragment: usize, pixel: usize) {
-        self.asked[0].push(task.z[fragment], task.absorbance[fragment], of, DROPPED, pixel);
+        self.asked[0].push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], of, DROPPED, pixel);
         if self.asked[0].is_full() {
             self.flush(false, task, network);
         }
@@ -355,7 +358,7 @@ impl<const K: usize> Workspace<K> {
                         self.run_for_nothing(task, network, &of, fragment, at);
                     }
                 } else if count <= 4 {
-                    self.short.push(task.z[fragment], absorbance, &of, fragment as u32, at);
+                    self.short.push(view_z, task.z[fragment], absorbance, &of, fragment as u32, at);
                     if self.short.is_full() {
                         self.flush_short(task, network);
                     }
@@ -383,7 +386,7 @@ impl<const K: usize> Workspace<K> {
                 for fragment in own {
                     if task.class[fragment] == Class::Hidden {
                         task.class[fragment] = Class::Network;
-                        self.asked[0].push(task.z[fragment], task.absorbance[fragment], &of, fragment as u32, pixel as usize);
+                        self.asked[0].push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], &of, fragment as u32, pixel as usize);
                         if self.asked[0].is_full() {
                             self.flush(false, task, network);
                         }
@@ -419,10 +422,14 @@ impl<const K: usize> Task<'_, K> {
     }
 
     /// Pass 1.
-    fn pass_1(&mut self, list: &FragmentList, warp: &LogWarp) {
+    fn pass_1(&mut self, list: &FragmentList, warp: &LogWarp, frame: MomentFrame) {
         let (view_z, alpha, z, absorbance) = (self.view_z, self.alpha, &mut *self.z, &mut *self.absorbance);
         dispatch!(Level::new(), simd => see(simd, warp, view_z, alpha, z, absorbance));
         let offsets = &list.offsets()[self.pixels.start..=self.pixels.end];
+        if frame == MomentFrame::Pixel {
+            // The prepass, and depths in each pixel's own range.
+            dispatch!(Level::new(), simd => see_by_pixel(simd, offsets, view_z, z));
+        }
         self.summed.reserve_exact(self.pixels.len().min(self.z.len()));
         for of in offsets.windows(2).filter(|of| of[0] < of[1]) {
             let own = (of[0] - offsets[0]) as usize..(of[1] - offsets[0]) as usize;
@@ -439,7 +446,8 @@ impl<const K: usize> Task<'_, K> {
                 }
             }
             let h = (0.5 * (ends[1] - ends[0])).max(LEAST_HALF_RANGE as f32);
-            self.summed.push(Summed { sums, c: 0.5 * (ends[0] + ends[1]), h, first });
+            let thin = is_thin(sums.nearest, sums.farthest);
+            self.summed.push(Summed { sums, c: 0.5 * (ends[0] + ends[1]), h, thin, first });
         }
     }
 }
@@ -457,6 +465,23 @@ fn see<S: Simd>(simd: S, warp: &LogWarp, view_z: &[f32], alpha: &[f32], z: &mut 
         lanes.0[..n].copy_from_slice(alpha);
         lanes.store(absorbance_lanes(simd, lanes.load(simd)));
         absorbance.copy_from_slice(&lanes.0[..n]);
+    }
+}
+
+/// Moment depths between the nearest and the farthest fragment of every pixel; `offsets` count from those of the first.
+#[inline(always)]
+fn see_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], z: &mut [f32]) {
+    for of in offsets.windows(2) {
+        let own = (of[0] - offsets[0]) as usize..(of[1] - offsets[0]) as usize;
+        let (nearest, farthest) = view_z[own.clone()].iter().fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+        let range = [nearest, farthest].map(|v| f32x16::splat(simd, v));
+        for (view_z, z) in view_z[own.clone()].chunks(LANES).zip(z[own].chunks_mut(LANES)) {
+            let n = z.len();
+            let mut lanes = Lanes([nearest; LANES]);
+            lanes.0[..n].copy_from_slice(view_z);
+            lanes.store(moment_depth(simd, lanes.load(simd), range));
+            z.copy_from_slice(&lanes.0[..n]);
+        }
     }
 }
 
@@ -488,13 +513,14 @@ pub struct Passes {
     moments: usize,
     width: usize,
     warp: LogWarp,
+    frame: MomentFrame,
 }
 
 impl Extractor {
     /// Both passes of this feature set, where they are made for many pixels: recentred ones with moments summed in f32.
     pub fn passes(&self) -> Option<Passes> {
         match (self.kind, self.storage) {
-            (Kind::Recentred(warp), Storage::F32) => Some(Passes { moments: self.set.moments(), width: self.set.width(), warp }),
+            (Kind::Recentred(warp), Storage::F32) => Some(Passes { moments: self.set.moments(), width: self.set.width(), warp, frame: self.frame }),
             _ => None,
         }
     }
@@ -560,7 +586,7 @@ impl Passes {
             tasks.push(Task { pixels: first..end, view_z, alpha, summed: Vec::new(), z, absorbance, out, class });
             first = end;
         }
-        tasks.par_iter_mut().for_each(|task| task.pass_1(list, &self.warp));
+        tasks.par_iter_mut().for_each(|task| task.pass_1(list, &self.warp, self.frame));
         let seconds_pass_1 = start.elapsed().as_secs_f64();
         let start = std::time::Instant::now();
         let mut tally: Tally = tasks

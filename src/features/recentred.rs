@@ -225,16 +225,7 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
     /// Place of a fragment in its pixel's range, in [−1, 1]. In thin pixels that of its view depth, of which more is known than of its moment depth.
     fn place(&self, seen: Seen<R>, c: R, h: R) -> R {
         let [v, nearest, farthest] = [seen.view_z, self.nearest, self.farthest].map(R::from_f32);
-        let range = farthest - nearest;
-        let ratio = range / nearest;
-        if ratio < R::from_f64(THIN) {
-            let t = (v - nearest) / range;
-            // ln(1 + r t)/ln(1 + r) to the first order in r
-            let x = t * (R::ONE + R::from_f64(0.5) * ratio * (R::ONE - t));
-            clamp(x + x - R::ONE, -R::ONE, R::ONE)
-        } else {
-            clamp((seen.z - c) / h, -R::ONE, R::ONE)
-        }
+        if is_thin(nearest, farthest) { place_in_thin(v, nearest, farthest) } else { clamp((seen.z - c) / h, -R::ONE, R::ONE) }
     }
 
     /// m_1..m_K of the other fragments, in [−1, 1] whatever rounding has done.
@@ -347,6 +338,20 @@ pub const USUAL_INNER_SPREAD: ByCount = ByCount { many: 1.0, few: -2.0 };
 
 /// Standard deviation of the square of the inner spread about what is expected, as a share of the spread.
 pub const INNER_SPREAD_DEVIATION: ByCount = ByCount { many: 0.1, few: 1.4 };
+
+/// Whether the range of a pixel is so small that places in it are those of view depth.
+pub fn is_thin<R: Real>(nearest: R, farthest: R) -> bool {
+    (farthest - nearest) / nearest < R::from_f64(THIN)
+}
+
+/// Place of a view depth between the nearest and the farthest of a thin pixel, in [−1, 1].
+pub fn place_in_thin<R: Real>(v: R, nearest: R, farthest: R) -> R {
+    let range = farthest - nearest;
+    let t = (v - nearest) / range;
+    // ln(1 + r t)/ln(1 + r) to the first order in r = range/nearest
+    let x = t * (R::ONE + R::from_f64(0.5) * (range / nearest) * (R::ONE - t));
+    clamp(x + x - R::ONE, -R::ONE, R::ONE)
+}
 
 /// Means and spreads of a measure and of what is left of it as (1 − x²) takes its ends out again and again.
 ///

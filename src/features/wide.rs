@@ -1,6 +1,9 @@
 //! [`recentred`](super::recentred) and [`visible`](super::visible) for sixteen fragments at once, of any pixels, in f32; function by function what those files do, without branches.
 
-use super::recentred::{ABSORBANCE_OFFSET, CLOSED_FORM_TOLERANCE};
+use super::recentred::{
+    ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION,
+    STRADDLE, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+};
 use super::visible::{HIDDEN, ORDER};
 use crate::numeric::lanes::{exp, ln};
 use fearless_simd::prelude::*;
@@ -23,6 +26,8 @@ pub struct Fragments<S: Simd, const K: usize> {
     pub c: f32x16<S>,
     /// Half of that range.
     pub h: f32x16<S>,
+    /// Place in a thin pixel's range by view depth; more than 1 where the pixel is not thin.
+    pub place: f32x16<S>,
 }
 
 /// What follows from them.
@@ -43,10 +48,36 @@ fn square<S: Simd>(v: f32x16<S>) -> f32x16<S> {
     v * v
 }
 
+/// a + b/n
+#[inline(always)]
+fn by_count<S: Simd>(simd: S, quantity: ByCount, per_n: f32x16<S>) -> f32x16<S> {
+    f32x16::splat(simd, quantity.many as f32) + f32x16::splat(simd, quantity.few as f32) * per_n
+}
+
+/// What is best thought of a quantity; see the function of this name beside [`PixelSums`](super::recentred::PixelSums).
+#[inline(always)]
+fn shrunk<S: Simd>(simd: S, value: f32x16<S>, expected: f32x16<S>, noise: f32x16<S>, deviation: f32x16<S>) -> f32x16<S> {
+    expected + (value - expected) / (f32x16::splat(simd, 1.0) + square(noise / deviation))
+}
+
 /// NaN becomes the lower end.
 #[inline(always)]
 fn clamp<S: Simd>(x: f32x16<S>, low: f32x16<S>, high: f32x16<S>) -> f32x16<S> {
     x.max_precise(low).min(high)
+}
+
+/// Moment depth of view depths between v0 and v1, finite and > 0.
+#[inline(always)]
+pub fn moment_depth<S: Simd>(simd: S, v: f32x16<S>, [v0, v1]: [f32x16<S>; 2]) -> f32x16<S> {
+    let splat = |v: f32| f32x16::splat(simd, v);
+    let log_ratio = |a: f32x16<S>, b: f32x16<S>| {
+        let s = (a - b) / (a + b);
+        let q = s * s;
+        let near = (s + s) * (splat(1.0) + q * (splat(0.333_333_34) + q * (splat(0.2) + q * (splat(0.142_857_15) + q * splat(0.111_111_11)))));
+        s.abs().simd_lt(splat(0.2)).select(near, ln(simd, a / b))
+    };
+    let warped = splat(2.0) * log_ratio(v, v0) / log_ratio(v1, v0).max(splat(1e-30)) - splat(1.0);
+    v1.simd_gt(v0).select(clamp(warped, splat(-1.0), splat(1.0)), splat(0.0))
 }
 
 impl<S: Simd, const K: usize> Fragments<S, K> {
@@ -88,6 +119,12 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         f32x16::splat(simd, f32::EPSILON) * d.reach * self.b0 / d.others
     }
 
+    /// What rounding usually has done to m_1.
+    #[inline(always)]
+    fn noise(&self, simd: S, d: &Described<S, K>) -> f32x16<S> {
+        self.rounding(simd, d) * (f32x16::splat(simd, USUAL_NOISE as f32) * self.count.sqrt())
+    }
+
     /// Optical depth in front of a fragment that is one of three or four, and where that closed form holds.
     #[inline(always)]
     pub fn closed_form(&self, simd: S, d: &Described<S, K>) -> (f32x16<S>, mask32x16<S>) {
@@ -95,7 +132,8 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let (zero, half, one) = (splat(0.0), splat(0.5), splat(1.0));
         let three = self.count.simd_eq(splat(3.0));
         let m = &d.m;
-        let of_three = clamp(half * (one - m[0]), zero, one);
+        let mean = shrunk(simd, m[0], zero, self.noise(simd, d), by_count(simd, MEAN_DEVIATION, one / self.count));
+        let of_three = clamp(half * (one - mean), zero, one);
         if K < 3 {
             return (d.others * of_three, three);
         }
@@ -110,7 +148,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let end = half * (one - sign * m[0] - inner / gap);
         let error = half * (e1 + e2 / gap + inner * u_error / (gap * gap));
         let beside = inner / (one - u * u).max(splat(f32::EPSILON));
-        let error = (d.x - u).abs().simd_le(u_error).select(error + beside, error);
+        let error = (d.x - u).abs().simd_le(splat(STRADDLE as f32) * u_error).select(error + beside, error);
         let share = clamp(in_front.select(one - end, end), zero, one);
         let steepest = d.others * exp(simd, -(d.others * (share - error).max(zero)));
         // NaN is not less.
@@ -129,23 +167,48 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let mut q = [one; 9];
         q[1..=K].copy_from_slice(&d.m);
         let mut out = [zero; K];
+        let per_n = one / self.count;
+        let further = d.reach * splat(NOISE_GROWTH as f32);
+        let noise1 = self.noise(simd, d);
+        let noise2 = noise1 * further;
+        let noise3 = noise2 * further;
+        let noise4 = noise3 * further;
+        let (mut mean0, mut spread0) = (zero, zero);
         for level in 0..K / 2 {
             let last = K - 2 * level;
             let per_mass = one / q[0].max(least);
             let mut mean = clamp(q[1] * per_mass, -one, one);
-            let spread = (q[2] * per_mass - mean * mean) / (one - mean * mean).max(least);
-            let mut spread = clamp(spread, zero, one);
-            if level > 0 {
-                spread = spread.sqrt();
-            }
-            if level >= 2 {
-                let mut noise = self.rounding(simd, d) * per_mass;
-                for _ in 1..2 * level + 1 {
-                    noise *= d.reach;
+            match level {
+                0 => mean = shrunk(simd, mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
+                1 => {
+                    let deviation = by_count(simd, INNER_MEAN_DEVIATION, per_n) * (spread0 + splat(0.02));
+                    mean = shrunk(simd, mean, mean0 * (one - spread0) / (one + spread0), noise3 * per_mass, deviation);
                 }
-                mean *= one / (one + noise * noise);
-                noise *= d.reach;
-                spread = half + (spread - half) * (one / (one + noise * noise));
+                _ => {}
+            }
+            let most = (one - mean * mean).max(least);
+            let mut spread = clamp((q[2] * per_mass - mean * mean) / most, zero, one);
+            match level {
+                0 => {
+                    let expected = by_count(simd, USUAL_SPREAD, per_n);
+                    spread = shrunk(simd, spread, expected, noise2 / most, by_count(simd, SPREAD_DEVIATION, per_n));
+                    (mean0, spread0) = (mean, spread);
+                }
+                1 => {
+                    let deviation = by_count(simd, INNER_SPREAD_DEVIATION, per_n) * (spread0 + splat(0.02));
+                    let expected = by_count(simd, USUAL_INNER_SPREAD, per_n) * spread0 / (one + spread0 + spread0);
+                    spread = shrunk(simd, spread, expected, noise4 * per_mass / most, deviation).sqrt();
+                }
+                _ => {
+                    spread = spread.sqrt();
+                    let mut noise = self.rounding(simd, d) * per_mass;
+                    for _ in 1..2 * level + 1 {
+                        noise *= d.reach;
+                    }
+                    mean *= one / (one + noise * noise);
+                    noise *= d.reach;
+                    spread = half + (spread - half) * (one / (one + noise * noise));
+                }
             }
             out[2 * level] = mean;
             out[2 * level + 1] = spread;
@@ -154,7 +217,8 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 q[k] -= beyond;
             }
         }
-        ([d.x, count, ln_b0], out)
+        let x = self.place.simd_le(one).select(self.place, d.x);
+        ([x, count, ln_b0], out)
     }
 
     /// Which of these fragments, if they lie deep enough to be looked at, are hidden.

@@ -3,7 +3,7 @@
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
-use crate::features::{Extractor, FeatureSet, Look, Storage};
+use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, MomentFrame, Storage};
 use crate::model::kernel::Row;
 use crate::model::{Mlp, Tiled, file};
 use crate::numeric::lanes::LANES;
@@ -41,6 +41,7 @@ pub struct Neural {
     mlp: Mlp,
     switches: Switches,
     storage: Storage,
+    frame: MomentFrame,
 }
 
 /// A network's answers, and what was done for them.
@@ -67,7 +68,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 impl Neural {
     /// The method that asks this network where its answer is used.
     pub fn new(mlp: Mlp) -> Self {
-        Self { mlp, switches: Skip::default().switches(), storage: Storage::default() }
+        Self { mlp, switches: Skip::default().switches(), storage: Storage::default(), frame: MomentFrame::default() }
     }
 
     /// The same, asking about other fragments.
@@ -83,6 +84,18 @@ impl Neural {
     /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
     pub fn with_storage(self, storage: Storage) -> Self {
         Self { storage, ..self }
+    }
+
+    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
+    /// and farthest fragment.
+    pub fn with_frame(self, frame: MomentFrame) -> Self {
+        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log { frame } else { MomentFrame::Scene };
+        Self { frame, ..self }
+    }
+
+    /// The frame of its moments.
+    pub fn frame(&self) -> MomentFrame {
+        self.frame
     }
 
     /// The network.
@@ -114,7 +127,7 @@ impl Neural {
         // Pixels are taken in runs of about this many fragments, so that what is made of them stays a few megabytes.
         const RUN: u64 = 1 << 18;
         let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range).map_err(|e| self.error(e))?;
-        let extractor = extractor.with_storage(self.storage);
+        let extractor = extractor.with_storage(self.storage).with_frame(self.frame);
         let passes = extractor.passes();
         let tiled = Tiled::new(&self.mlp);
         let offsets = list.offsets();
@@ -210,7 +223,7 @@ impl Network for Tile<'_> {
 
 impl Method for Neural {
     fn name(&self) -> String {
-        format!("neural:{}", self.mlp.name())
+        format!("neural:{}{}", self.mlp.name(), if self.frame == MomentFrame::Pixel { " @ prepass" } else { "" })
     }
 
     /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.

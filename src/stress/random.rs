@@ -1,19 +1,23 @@
 //! A great many random pixels of every kind at once, in search of an answer that breaks a promise.
 
 use super::cases::{Fragments, SCENE};
-use crate::features::{Extractor, MomentFrame};
+use crate::features::MomentFrame;
 use crate::model::Mlp;
 use crate::numeric::rng::{Stream, stream};
-use crate::pixel::{CameraPlanes, DepthError, LogWarp, MomentDepth, ViewZ};
+use crate::oit::MethodError;
+use crate::oit::neural::Neural;
+use crate::pixel::{LogWarp, MomentDepth, ViewZ};
 use rand::RngExt;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const PURPOSE: u64 = 0x5354;
 
-/// Fragments of one task: enough to pay for it, few enough that they stay in the cache.
+/// Fragments that are drawn from one stream of random numbers.
 const BLOCK: usize = 1 << 14;
+
+/// Blocks that are answered together.
+const TOGETHER: usize = 32;
 
 /// Most fragments of a pixel.
 const MOST_FRAGMENTS: f64 = 300.0;
@@ -71,33 +75,32 @@ impl Counts {
 /// `progress` is told how many are done.
 ///
 /// # Errors
-/// [`DepthError`] where the network's features cannot be had of any pixel.
-pub fn hunt(mlp: &Mlp, frame: MomentFrame, fragments: u64, seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Result<Counts, DepthError> {
-    let planes = CameraPlanes::new(SCENE.0, SCENE.1)?;
-    let extractor = Extractor::new(mlp.feature_set(), Some(planes), Some(SCENE))?.with_frame(frame);
-    let done = AtomicU64::new(0);
+/// [`MethodError`] where the network's features cannot be had of any pixel.
+pub fn hunt(mlp: &Mlp, frame: MomentFrame, fragments: u64, seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Result<Counts, MethodError> {
+    let method = Neural::new(mlp.clone()).with_frame(frame);
     // A block ends with the pixel that fills it.
     let blocks = fragments.div_ceil(BLOCK as u64);
-    let of_block = |block: u64| -> Result<Counts, DepthError> {
-        let list = block_of(seed, block);
-        let width = mlp.feature_set().width();
-        let mut rows = vec![0.0; list.len() * (width + 1)];
-        for p in 0..list.pixels() {
-            let range = list.range(p);
-            extractor.pixel(list.pixel(p), &mut rows[range.start * (width + 1)..range.end * (width + 1)])?;
+    let mut counts = Counts::default();
+    for first in (0..blocks).step_by(TOGETHER) {
+        let parts: Vec<Fragments> = (first..blocks.min(first + TOGETHER as u64)).into_par_iter().map(|block| block_of(seed, block)).collect();
+        let mut whole = Fragments::none(SCENE);
+        for part in &parts {
+            let start = whole.len() as u64;
+            whole.offsets.extend(part.offsets[1..].iter().map(|o| start + o));
+            whole.view_z.extend_from_slice(&part.view_z);
+            whole.alpha.extend_from_slice(&part.alpha);
         }
-        let features: Vec<f32> = rows.chunks_exact(width + 1).filter(|row| row[width].is_nan()).flat_map(|row| &row[..width]).copied().collect();
-        let mut answered = mlp.predict(&features).into_iter();
-        let answers: Vec<f32> =
-            rows.chunks_exact(width + 1).map(|row| if row[width].is_nan() { answered.next().expect("one a row") } else { row[width] }).collect();
-        let mut counts = Counts { asked: (features.len() / width) as u64, ..Counts::default() };
-        for p in 0..list.pixels() {
-            counts.see(list.pixel(p).view_z, &answers[list.range(p)]);
-        }
-        progress(done.fetch_add(counts.fragments, Ordering::Relaxed) + counts.fragments);
-        Ok(counts)
-    };
-    (0..blocks).into_par_iter().map(of_block).try_reduce(Counts::default, |a, b| Ok(a.and(b)))
+        let list = whole.list().expect("depths and opacities are within their domains");
+        let answered = method.answers(&list, whole.context, &|_| {})?;
+        let seen = (0..list.pixels()).into_par_iter().with_min_len(256).fold(Counts::default, |mut counts, p| {
+            counts.see(list.pixel(p).view_z, &answered.transmittance[list.range(p)]);
+            counts
+        });
+        let seen = seen.reduce(Counts::default, Counts::and);
+        counts = counts.and(Counts { asked: answered.tally.rows, ..seen });
+        progress(counts.fragments);
+    }
+    Ok(counts)
 }
 
 /// Pixels of one block: one fragment to 300, alone or tied, spread over the scene or over a billionth of it, clear, faint, opaque and everything between.

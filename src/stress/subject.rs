@@ -7,6 +7,7 @@ use crate::features::{Extractor, FeatureSet, MomentFrame, Storage};
 use crate::model::{Dense, Mlp, ShapeError};
 use crate::numeric::Real;
 use crate::numeric::quantise::round_f16;
+use crate::oit::neural::Neural;
 use crate::oit::{self, Method};
 use crate::pixel::{LogWarp, Pixel, ViewZ, absorbance};
 use rayon::prelude::*;
@@ -131,7 +132,7 @@ fn run_method(method: &dyn Method, fragments: &Fragments) -> Answers {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Arithmetic {
-    /// As `nmt predict` does: depth and absorbance in f64 rounded to f32, everything after in f32.
+    /// As `nmt predict` does: in f32, sixteen fragments at once where moments are kept in f32.
     #[default]
     Usual,
     /// Every operation as the shaders write it, rounded to f32.
@@ -273,11 +274,9 @@ impl Execution {
         match self.arithmetic {
             Arithmetic::Usual => {
                 let list = fragments.list().map_err(|e| e.to_string())?;
-                let context = fragments.context;
-                let extractor = Extractor::for_list(mlp.feature_set(), &list, context.planes, context.depth_range).map_err(|e| e.to_string())?;
-                let look = extractor.with_storage(self.storage).with_frame(self.frame).list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
-                let mut asked = mlp.predict(&look.features).into_iter();
-                Ok(look.known.into_iter().map(|t| if t.is_nan() { asked.next().expect("one answer a question") } else { t }.into()).collect())
+                let method = Neural::new(mlp.clone()).with_storage(self.storage).with_frame(self.frame);
+                let answers = method.transmittance(&list, fragments.context, &|_| {}).map_err(|e| e.to_string())?;
+                Ok(answers.into_iter().map(f64::from).collect())
             }
             Arithmetic::Shader => as_shader::<f32>(mlp, fragments, self.frame),
             Arithmetic::Fused => as_shader::<Fused>(mlp, fragments, self.frame),
