@@ -222,7 +222,7 @@ fn bar(share: f64) -> String {
     let eighths = (share * 8.0 * 40.0).round() as usize;
     let rest = ['\u{258f}', '\u{258e}', '\u{258d}', '\u{258c}', '\u{258b}', '\u{258a}', '\u{2589}'];
     let mut text = "\u{2588}".repeat(eighths / 8);
-    if eighths % 8 > 0 {
+    if !eighths.is_multiple_of(8) {
         text.push(rest[eighths % 8 - 1]);
     }
     text

@@ -57,12 +57,13 @@ fn occupied(h: &Histogram) -> (usize, usize) {
 
 fn panel(area: &Area<'_>, h: &Histogram) -> Result<(), PlotError> {
     let (first, end) = occupied(h);
-    let most = h.counts.iter().copied().max().unwrap_or(0).max(1) as f64;
+    let all = h.counts.iter().sum::<u64>().max(1) as f64;
+    let most = 100.0 * h.counts.iter().copied().max().unwrap_or(0).max(1) as f64 / all;
     let mut chart = ChartBuilder::on(area)
-        .caption(format!("{} of {}", h.quantity, h.of), ("sans-serif", 15))
+        .caption(format!("{}, % of {}", h.quantity, h.of), ("sans-serif", 15))
         .margin(8)
         .x_label_area_size(30)
-        .y_label_area_size(60)
+        .y_label_area_size(40)
         .build_cartesian_2d(first as f64..end as f64, 0.0..1.05 * most)
         .map_err(failed)?;
     let edge = |x: &f64| if (x - x.round()).abs() < 1e-9 { tick(h.edges[(x.round() as usize).min(h.edges.len() - 1)]) } else { String::new() };
@@ -70,6 +71,7 @@ fn panel(area: &Area<'_>, h: &Histogram) -> Result<(), PlotError> {
         .configure_mesh()
         .disable_x_mesh()
         .light_line_style(WHITE)
+        .y_labels(6)
         .x_labels((end - first + 1).min(12))
         .x_label_formatter(&edge)
         .y_label_formatter(&|y| tick(*y))
@@ -77,7 +79,7 @@ fn panel(area: &Area<'_>, h: &Histogram) -> Result<(), PlotError> {
         .map_err(failed)?;
     let bars = h.counts[first..end].iter().enumerate().map(|(i, &n)| {
         let x = (first + i) as f64;
-        Rectangle::new([(x + 0.06, 0.0), (x + 0.94, n as f64)], RGBColor(70, 110, 160).filled())
+        Rectangle::new([(x + 0.06, 0.0), (x + 0.94, 100.0 * n as f64 / all)], RGBColor(70, 110, 160).filled())
     });
     chart.draw_series(bars).map_err(failed)?;
     Ok(())

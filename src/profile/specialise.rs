@@ -432,3 +432,98 @@ pub fn specialise(
         seconds: start.elapsed().as_secs_f64(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oit::Context;
+    use crate::pixel::FragmentList;
+    use crate::scene::{BUILT_IN, Options, build, open};
+
+    fn scene(name: &str, size: u32) -> FragmentList {
+        assert!(BUILT_IN.contains(&name));
+        build(&open(name).unwrap(), &Options { size: Some((size, size)), seed: None }).unwrap()
+    }
+
+    fn small() -> Mlp {
+        super::super::shipped().unwrap().swap_remove(1)
+    }
+
+    const QUICK: Plan = Plan { target_error: None, held_out: 0.25, visits: 2_000_000, epochs: 400, attempts: 3, seed: 1 };
+
+    /// Retrained on the scene the network errs less there, on what was held out too, and a smaller one errs no more than the first did; the same bytes on one thread. Control: an
+    /// error that nothing can keep is not kept.
+    #[test]
+    fn a_scene_needs_less_than_all_scenes() {
+        let list = scene("hair", 72);
+        let scene = Scene::new(&list, Context::default(), [1.0; 3]);
+        let made = specialise(&scene, &small(), &QUICK, &|| false, &|_, _| {}).unwrap();
+        let first = &made.attempts[0];
+        assert!(first.kept && first.error < 0.95 * made.before.error && first.error_held_out < made.before.error_held_out, "{made:?}");
+        let chosen = &made.attempts[made.chosen];
+        assert!(chosen.kept && chosen.multiply_adds < made.before.multiply_adds, "{made:?}");
+        assert!(chosen.error <= made.target_error && chosen.error_held_out <= made.target_held_out);
+        assert_eq!(made.mlp.multiply_adds() as u64, chosen.multiply_adds);
+        // The errors that were decided by are those of the method, to the rounding of features made otherwise.
+        assert!((made.errors_after.image_mse.unwrap() / chosen.error - 1.0).abs() < 0.02);
+        assert!((made.errors_before.image_mse.unwrap() / made.before.error - 1.0).abs() < 0.02);
+        assert!(made.rows[1] * 10 > made.rows[0] && made.rows[1] < made.rows[0]);
+        assert_eq!(made.mlp.provenance.derived.as_ref().unwrap()["from"], "small");
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let again = one.install(|| specialise(&scene, &small(), &QUICK, &|| false, &|_, _| {}).unwrap());
+        assert_eq!(again.mlp.layers(), made.mlp.layers());
+
+        let never = Plan { target_error: Some(1e-12), attempts: 2, visits: 100_000, ..QUICK };
+        let made = specialise(&scene, &small(), &never, &|| false, &|_, _| {}).unwrap();
+        assert!(!made.attempts[made.chosen].kept && made.mlp.sizes() == small().sizes());
+    }
+
+    #[test]
+    fn what_cannot_be_fitted_is_said() {
+        let list = scene("teapots", 48);
+        let of = Scene::new(&list, Context::default(), [1.0; 3]);
+        let error = |plan: &Plan| specialise(&of, &small(), plan, &|| false, &|_, _| {}).unwrap_err().to_string();
+        assert!(error(&QUICK).contains("at least 1000"));
+        assert!(error(&Plan { target_error: Some(f64::NAN), ..QUICK }).contains("--target-error NaN"));
+        let list = scene("hair", 48);
+        let of = Scene::new(&list, Context::default(), [1.0; 3]);
+        assert!(matches!(specialise(&of, &small(), &QUICK, &|| true, &|_, _| {}), Err(ProfileError::Interrupted)));
+    }
+
+    /// A list without colours is judged by transmittance; runs of pixels are held out.
+    #[test]
+    fn a_list_without_an_image_will_do() {
+        let full = scene("smoke", 40);
+        let bare = FragmentList::new(full.offsets().to_vec(), full.view_z().to_vec(), full.alpha().to_vec(), None).unwrap();
+        let of = Scene::new(&bare, Context::default(), [1.0; 3]);
+        let made = specialise(&of, &small(), &Plan { attempts: 1, visits: 500_000, ..QUICK }, &|| false, &|_, _| {}).unwrap();
+        assert!(made.errors_after.image_mse.is_none() && made.errors_after.transmittance_mse < made.errors_before.transmittance_mse);
+    }
+
+    #[test]
+    fn sizes_keep_their_proportions() {
+        assert_eq!(smaller(7, &[32, 16], 752 * 3 / 4), Some(vec![27, 13]));
+        assert_eq!((smaller(7, &[2, 1], 16), smaller(7, &[1, 1], 8)), (Some(vec![1, 1]), None));
+        assert_eq!(multiply_adds(7, &[32, 16]), 752);
+    }
+
+    /// Units that do nothing go first, and the mean of what went stays in the biases: the answers of a network with a unit that always says the same do not change.
+    #[test]
+    fn shrinking_keeps_what_matters() {
+        let mut layers = small().layers().to_vec();
+        let width = layers[0].inputs();
+        for unit in [3, 9] {
+            (0..width).for_each(|i| layers[0].weights[i * 16 + unit] = 0.0);
+            layers[0].biases[unit] = 0.7;
+        }
+        let mlp = Mlp::new("s", small().feature_set(), layers, Default::default()).unwrap();
+        let mut rng = stream(1, 96, 0);
+        let rows: Vec<f32> = (0..7 * 4000).map(|_| rng.random_range(-1.0f32..1.0)).collect();
+        let less = shrink(&mlp, &rows, &[14, 8]).unwrap();
+        assert_eq!(less.shape(), "7-14-8-1");
+        let worst =
+            |a: &Mlp| a.forward_batch::<f64>(&rows).iter().zip(mlp.forward_batch::<f64>(&rows)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst(&less) < 1e-5, "{}", worst(&less));
+        assert!(worst(&shrink(&mlp, &rows, &[8, 8]).unwrap()) > 1e-3);
+    }
+}

@@ -688,3 +688,68 @@ fn help_and_usage() {
     // Results on stdout, and nothing on stderr under --quiet.
     nmt(&["train", &at.config(), "--out", &at.path("q.json"), "--quiet"]).success().stderr("").stdout(contains("q.json"));
 }
+
+/// Where a shipped network lies.
+fn shipped(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("models").join(name).to_str().unwrap().to_owned()
+}
+
+/// Without skipping and with it the same bytes; what cannot be seen may differ, and says so.
+#[test]
+fn skipping_changes_no_byte_unless_asked_to() {
+    let w = Workplace::new();
+    let fragments = w.path("foliage.npz");
+    nmt(&["scene", "foliage", "--size", "64x64", "--out", &fragments]).success();
+    let model = shipped("recommended.json");
+    let answer = |skip: &str| {
+        let out = w.path(&format!("{skip}.npy"));
+        let run = nmt(&["predict", &model, "--fragments", &fragments, "--out", &out, "--skip", skip, "--json"]).success();
+        let text = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let result = json["results"][0].clone();
+        assert_eq!(result["skip"], skip);
+        (std::fs::read(out).unwrap(), result["network_rows"].as_u64().unwrap(), result["fragments"].as_u64().unwrap())
+    };
+    let (none, exact, visible) = (answer("none"), answer("exact"), answer("visible"));
+    assert_eq!(none.0, exact.0);
+    assert_ne!(none.0, visible.0);
+    assert!(none.1 == none.2 && exact.1 < none.1 && visible.1 < exact.1);
+    nmt(&["predict", &model, "--fragments", &fragments, "--out", &w.path("x.npy"), "--skip", "some"]).code(2).stderr(contains("visible"));
+}
+
+#[test]
+fn a_scene_is_profiled() {
+    let w = Workplace::new();
+    let out = w.path("profile");
+    let run = nmt(&["profile", "--fragments", "foliage", "--size", "48x48", "--repeat", "1", "--out", &out]).success();
+    let text = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    for part in ["one of four", "hidden", "tiles of 8 x 8", "recommended", "moments-6", "exact + faint", "1/512", "image MSE"] {
+        assert!(text.contains(part), "{part} is missing in {text}");
+    }
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(Path::new(&out).join("profile.json")).unwrap()).unwrap();
+    let result = &json["results"][0];
+    let shares: f64 = result["facts"]["classes"].as_array().unwrap().iter().map(|c| c["share"].as_f64().unwrap()).sum();
+    assert!((shares - 1.0).abs() < 1e-9);
+    assert_eq!(result["skipping"][1]["image"]["greatest_change"], 0.0);
+    assert!(std::fs::read_to_string(Path::new(&out).join("profile.svg")).unwrap().starts_with("<svg"));
+    nmt(&["profile", "--fragments", "foliage", "--size", "48x48", "--out", &out]).code(2).stderr(contains("--force"));
+    nmt(&["profile", "--fragments", "foliage", "--target-error", "0"]).code(2).stderr(contains("greater than 0"));
+    nmt(&["profile", "--fragments", "foliage", "--specialise", &shipped("small.json")]).code(2).stderr(contains("--out"));
+}
+
+#[test]
+fn networks_are_made_for_a_scene() {
+    let w = Workplace::new();
+    let (model, simple) = (shipped("paper.json"), w.path("simple.json"));
+    nmt(&["profile", "--fragments", "spheres", "--size", "48x48", "--simplify", &model, "--out", &simple])
+        .success()
+        .stdout(contains("identical bits"));
+    let text = std::fs::read_to_string(&simple).unwrap();
+    assert!(text.contains("\"derived\"") && text.contains("on every row on which none of the removed units fires"));
+    nmt(&["export", &simple, "--out", &w.path("shaders")]).success();
+    let own = w.path("own.json");
+    nmt(&["profile", "--fragments", "teapots", "--size", "48x48", "--specialise", &shipped("small.json"), "--out", &own])
+        .code(2)
+        .stderr(contains("at least 1000"));
+    assert!(!Path::new(&own).exists());
+}
