@@ -232,7 +232,7 @@ impl Gpu {
     /// Checks that a storage buffer may be so large.
     fn fits(&self, what: &'static str, bytes: u64) -> Result<u64, GpuError> {
         let limits = self.device.limits();
-        let most = limits.max_buffer_size.min(u64::from(limits.max_storage_buffer_binding_size));
+        let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
         if bytes > most { Err(GpuError::TooLarge { adapter: self.name(), what, bytes, most }) } else { Ok(bytes.max(16).next_multiple_of(4)) }
     }
 

@@ -322,8 +322,10 @@ fn gltf_part(path: &Path, mesh: &gltf::Mesh<'_>, primitive: &gltf::Primitive<'_>
     if (positions.data_type(), positions.dimensions()) != floats {
         return Err(wrong("POSITION must hold three 32-bit floats a vertex".to_owned()));
     }
+    // The declared number is believed only once so many are there.
+    let elements_of_positions = elements(path, &positions, buffers)?;
     let mut points = Vec::with_capacity(positions.count().min(MOST_TRIANGLES));
-    for (i, bytes) in elements(path, &positions, buffers)?.enumerate() {
+    for (i, bytes) in elements_of_positions.enumerate() {
         let p = [0, 4, 8].map(|k| f32::from_le_bytes([bytes[k], bytes[k + 1], bytes[k + 2], bytes[k + 3]]));
         let p = finite(path, || format!("{place}, vertex {i}"), p)?;
         let world = apply(matrix, p.map(f64::from)).map(|x| x as f32);

@@ -297,6 +297,15 @@ fn folder(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("fuzz").join(name)
 }
 
+/// A folder of this process's own with the valid files of a parser.
+fn fresh_folder(parser: &Parser<'_>) -> PathBuf {
+    let place = folder(&format!("{}-{}", parser.name, std::process::id()));
+    drop(std::fs::remove_dir_all(&place));
+    std::fs::create_dir_all(&place).unwrap();
+    parser.seeds.iter().for_each(|(name, bytes)| std::fs::write(place.join(name), bytes).unwrap());
+    place
+}
+
 fn seed() -> u64 {
     std::env::var("NMT_FUZZ_SEED").map_or(1, |text| text.parse().expect("NMT_FUZZ_SEED is a whole number"))
 }
@@ -342,16 +351,41 @@ fn quietly<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     })
 }
 
+/// Reads one file in the place of a valid one, and says what is wrong with how that went.
+fn examine(parser: &Parser<'_>, place: &Path, name: &str, bytes: &[u8]) -> Result<bool, String> {
+    std::fs::write(place.join(name), bytes).unwrap();
+    let before = HELD.load(Relaxed);
+    MOST_HELD.store(before, Relaxed);
+    LARGEST.store(0, Relaxed);
+    CASE_BEGAN.store(start().elapsed().as_millis() as u64, Relaxed);
+    // Shrinking meets the same panic often; its message comes with the smallest file.
+    let outcome = quietly(|| (parser.read)(place, name));
+    CASE_BEGAN.store(0, Relaxed);
+    let (held, largest) = (MOST_HELD.load(Relaxed).saturating_sub(before), LARGEST.load(Relaxed));
+    std::fs::write(place.join(name), &parser.seeds.iter().find(|s| s.0 == name).expect("a seed's name").1).unwrap();
+    let most = most_memory(bytes.len());
+    if held > most || largest > most {
+        return Err(format!("{} bytes made it hold {held} and ask for {largest} bytes at once; {most} are allowed", bytes.len()));
+    }
+    outcome
+}
+
+/// Files that once broke a parser, each a valid one with a text replaced, are refused.
+fn refuses(parser: &Parser<'_>, findings: &[(&str, &str, &str)]) {
+    let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let place = fresh_folder(parser);
+    for (name, from, to) in findings {
+        let seed = String::from_utf8(parser.seeds.iter().find(|s| s.0 == *name).unwrap().1.clone()).unwrap();
+        assert!(seed.contains(from), "{name} has no {from}");
+        assert_eq!(examine(parser, &place, name, seed.replacen(from, to, 1).as_bytes()), Ok(false), "{name}: {to}");
+    }
+}
+
 /// Mutates and reads until the budget is spent; the number of files that were read and of those that were refused.
 fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
     let turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     watch(start());
-    let place = folder(parser.name);
-    drop(std::fs::remove_dir_all(&place));
-    std::fs::create_dir_all(&place).unwrap();
-    for (name, bytes) in &parser.seeds {
-        std::fs::write(place.join(name), bytes).unwrap();
-    }
+    let place = fresh_folder(parser);
     for (name, _) in &parser.seeds {
         match (parser.read)(&place, name) {
             Ok(true) => {}
@@ -383,31 +417,13 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
         let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
         let outcome = runner.run(&strategy, |(which, changes)| {
             let (name, bytes) = mutated(&which, &changes);
-            std::fs::write(place.join(&name), &bytes).unwrap();
-            let before = HELD.load(Relaxed);
-            MOST_HELD.store(before, Relaxed);
-            LARGEST.store(0, Relaxed);
-            CASE_BEGAN.store(start().elapsed().as_millis() as u64, Relaxed);
-            // Shrinking meets the same panic often; its message comes with the smallest file.
-            let outcome = quietly(|| (parser.read)(&place, &name));
-            CASE_BEGAN.store(0, Relaxed);
-            let (held, largest) = (MOST_HELD.load(Relaxed).saturating_sub(before), LARGEST.load(Relaxed));
-            std::fs::write(place.join(&name), &parser.seeds.iter().find(|s| s.0 == name).unwrap().1).unwrap();
-            let most = most_memory(bytes.len());
-            if held > most || largest > most {
-                return Err(TestCaseError::fail(format!(
-                    "{} bytes made it hold {held} and ask for {largest} bytes at once; {most} are allowed",
-                    bytes.len()
-                )));
-            }
-            match outcome {
+            match examine(parser, &place, &name, &bytes) {
                 Ok(true) => read.fetch_add(1, Relaxed),
                 Ok(false) => refused.fetch_add(1, Relaxed),
                 Err(reason) => return Err(TestCaseError::fail(reason)),
             };
             Ok(())
         });
-        CASE_BEGAN.store(0, Relaxed);
         if let Err(TestError::Fail(reason, (which, changes))) = outcome {
             let (name, file) = mutated(&which, &changes);
             let kept = folder("").join(format!("broken-{}-{name}", parser.name));
@@ -418,6 +434,7 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
             return Err(Broken { reason, file });
         }
     }
+    drop(std::fs::remove_dir_all(&place));
     Ok((read.into_inner() as u32, refused.into_inner() as u32))
 }
 
@@ -473,12 +490,15 @@ fn archives_of_fragments() {
 #[test]
 fn arrays_of_fragments() {
     use ndarray::{ArrayView1, ArrayView2, arr0};
+    // Enough of them that more bytes are numbers than headers.
+    let n = 57;
+    let offsets: Vec<u64> = (0..=20).map(|p| 3 * p - u64::from(p > 4) - 2 * u64::from(p > 9)).collect();
     let arrays = vec![
-        ("offsets", npy::encode(ArrayView1::from(&[0u64, 2, 2, 3]))),
-        ("view_z", npy::encode(ArrayView1::from(&[1.0f32, 2.0, 3.0]))),
-        ("alpha", npy::encode(ArrayView1::from(&[0.5f32, 0.0, 1.0]))),
-        ("color", npy::encode(ArrayView2::from(&[[0.5f32, 0.0, 1.0]; 3]))),
-        ("width", npy::encode(arr0(3u32).view())),
+        ("offsets", npy::encode(ArrayView1::from(&offsets))),
+        ("view_z", npy::encode(ArrayView1::from(&(0..n).map(|i| 1.0 + i as f32).collect::<Vec<f32>>()))),
+        ("alpha", npy::encode(ArrayView1::from(&(0..n).map(|i| i as f32 / n as f32).collect::<Vec<f32>>()))),
+        ("color", npy::encode(ArrayView2::from(&vec![[0.5f32, 0.0, 1.0]; n]))),
+        ("width", npy::encode(arr0(20u32).view())),
         ("height", npy::encode(arr0(1i64).view())),
         ("near", npy::encode(arr0(0.5f32).view())),
         ("far", npy::encode(arr0(9.0f64).view())),
@@ -537,7 +557,9 @@ fn obj_meshes_and_their_materials() {
         usemtl glass\ns 1\nf 1/1/1 2/2/1 3/3/2\nf -4//-1 -3//1 -1//2\nf 1/1 2/2 3/3 4/1\nl 1 2 3\np 1 2\nusemtl tiles\nf 1 2 3 4 2\n";
     let mut seeds = seeds(&["data/roof.obj", "data/roof.mtl"]);
     seeds.push(("full.obj".to_owned(), full.as_bytes().to_vec()));
-    check(&Parser { name: "obj", seeds, read: Box::new(read) }, 600);
+    let parser = Parser { name: "obj", seeds, read: Box::new(read) };
+    refuses(&parser, &[("roof.mtl", "Kd 0.3 0.7 0.9", "Kd"), ("full.obj", "-1//2", "-1//6148914691236517206")]);
+    check(&parser, 600);
 }
 
 /// A mesh of two triangles, one of them by indices, its nodes moved and turned, with a material that blends.
@@ -578,7 +600,16 @@ fn gltf_meshes() {
     let embedded = "data:application/octet-stream;base64,AACAvwAAAAAAAAAAAAAAQAAAAAAAAIC/AAAAAAAAAEAAAAA/AAABAAIAAAA=";
     let seeds = vec![("mesh.glb".to_owned(), glb()), ("mesh.gltf".to_owned(), gltf(Some(embedded)).0.into_bytes())];
     let read = |folder: &Path, name: &str| seen(folder, name, "mesh.");
-    check(&Parser { name: "gltf", seeds, read: Box::new(read) }, 600);
+    let parser = Parser { name: "gltf", seeds, read: Box::new(read) };
+    let position = r#"{"attributes":{"POSITION":0},"material":0}"#;
+    refuses(
+        &parser,
+        &[
+            ("mesh.gltf", position, r#"{"attributes":{"POSITION":16777216},"material":0}"#),
+            ("mesh.gltf", r#""componentType":5126,"count":3"#, r#""componentType":5126,"count":1000000000"#),
+        ],
+    );
+    check(&parser, 600);
 }
 
 #[test]
@@ -776,7 +807,7 @@ fn bad_parsers_are_found() {
         Some((n, _)) if n > 1_000_000 => Err("invalid".to_owned()),
         other => Ok(other.is_some()),
     };
-    let budget = Budget::Cases(3000);
+    let budget = Budget::Cases(1500);
     let panics = fuzz(&Parser { name: "trusting", seeds: seeds(), read: Box::new(trusting) }, budget).unwrap_err();
     let memory = fuzz(&Parser { name: "greedy", seeds: seeds(), read: Box::new(greedy) }, budget).unwrap_err();
     let invalid = fuzz(&Parser { name: "careless", seeds: seeds(), read: Box::new(careless) }, budget).unwrap_err();
