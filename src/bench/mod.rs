@@ -17,6 +17,7 @@ pub use summary::Summary;
 
 use crate::dataset::DatasetError;
 use crate::model::ShapeError;
+use crate::train::BackendError;
 use std::time::{Duration, Instant};
 
 /// Most calls of one repetition: a call that seems to take no time at all must not be made for ever.
@@ -76,6 +77,12 @@ pub enum BenchError {
     /// Pixels could not be made.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
+    /// A backend cannot be had.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
+    /// Training failed.
+    #[error("{0}")]
+    Train(String),
     /// onnxruntime failed.
     #[error("onnxruntime: {0}")]
     Onnxruntime(String),

@@ -6,16 +6,18 @@ use super::Verdict;
 use super::config::Config;
 use super::train::BackendName;
 use super::ui::{Progress, Ui, table};
+use crate::bench::train::Streaming;
 use crate::bench::{Measurement, Network, Plan, Summary, generate, infer, network, train};
 use crate::check::onnx::library;
 use crate::dataset::{DatasetConfig, Rows, file as dataset_file};
 use crate::features::FeatureSet;
 use crate::model::{Mlp, file};
 use crate::synth::SynthConfig;
+use crate::train::Backend;
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Bench {
@@ -53,9 +55,12 @@ struct Common {
 
 #[derive(Args)]
 struct BenchTrain {
-    /// What computes the gradients.
-    #[arg(long, value_enum, value_delimiter = ',', default_values = ["fused", "flex", "ndarray"])]
+    /// What computes the gradients [default: fused,flex,ndarray; fused with --stream].
+    #[arg(long, value_enum, value_delimiter = ',')]
     backend: Vec<BackendName>,
+    /// Train whole epochs of a configuration with fresh pixels, against the same rows in memory and against generation alone.
+    #[arg(long, value_name = "CONFIG", conflicts_with_all = ["network", "features", "batch", "rows", "dataset"])]
+    stream: Option<PathBuf>,
     /// Sizes of networks; the first chooses the feature set by its width (7 paper, 9 recentred-6, 11 recentred-8).
     #[arg(long, value_name = "SIZES", value_delimiter = ',', default_values = ["7-32-16-1"])]
     network: Vec<String>,
@@ -271,6 +276,70 @@ impl Bench {
 
 impl BenchTrain {
     fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        let default: &[BackendName] =
+            if self.stream.is_some() { &[BackendName::Fused] } else { &[BackendName::Fused, BackendName::Flex, BackendName::Ndarray] };
+        let names = if self.backend.is_empty() { default } else { &self.backend };
+        let backends: Vec<Backend> = names.iter().map(|&name| name.try_into()).collect::<Result<_, _>>().context("--backend")?;
+        match &self.stream {
+            Some(config) => self.streamed(config, &backends, ui),
+            None => self.in_memory(&backends, ui),
+        }
+    }
+
+    fn streamed(&self, config: &Path, backends: &[Backend], ui: &Ui) -> anyhow::Result<Verdict> {
+        let config = Config::load(config)?;
+        if config.dataset.refresh == 0.0 {
+            bail!("--stream: dataset.refresh of '{}' is 0, so nothing is streamed; set it above 0", config.name);
+        }
+        let plan = self.common.prepare()?;
+        let dataset = super::generate::build(&config, ui)?;
+        let mut turns = Turns::new(ui, backends.len(), plan);
+        let mut results = Vec::new();
+        for &backend in backends {
+            let what = format!("{}, {}", config.name, backend.name());
+            results.push(turns.take(&what, |progress| train::stream_epochs(plan, &dataset, &config.train, config.seed, backend, progress))?);
+        }
+        let figures =
+            |s: &Streaming| [("in memory", &s.in_memory), ("streamed", &s.streamed), ("generation", &s.generation)].map(|(n, s)| (n, s.clone()));
+        let all = results.iter().flat_map(|s| figures(s).map(|(name, of)| (format!("{name} by {}", s.backend), Summary::of(&of.seconds))));
+        turns.finish(&all.collect::<Vec<_>>());
+        if ui.json() {
+            let of = |s: &Streaming| {
+                let [in_memory, generation] = [&s.in_memory, &s.generation].map(|of| Summary::of(&of.rates).median);
+                let object = json!({
+                    "benchmark": "train", "stream": config.name, "network": s.network, "backend": s.backend, "batch": s.batch, "rows": s.rows,
+                    "refresh": s.refresh, "samples_per_second": s.samples_per_second(), "in_memory_samples_per_second": in_memory,
+                    "pairs_per_second": generation, "bound_samples_per_second": s.bound(), "raw_in_memory_seconds": s.in_memory.seconds,
+                    "raw_generation_seconds": s.generation.seconds,
+                });
+                merged(object, timing(&s.streamed.seconds, s.streamed.calls))
+            };
+            return ui.print_json("bench", results.iter().map(of).collect()).map(|()| Verdict::Fine);
+        }
+        let mut rows = vec![cells(["network", "batch", "backend", "rows", "rate", "ms", "min", "max", "MAD", "of memory", "of bound"])];
+        for s in &results {
+            let (training, bound) = (Summary::of(&s.in_memory.rates).median, s.bound());
+            for (name, samples) in figures(s) {
+                let (time, rate) = (Summary::of(&samples.seconds), Summary::of(&samples.rates).median);
+                let share = |of: f64| if name == "streamed" { format!("{:.2}", rate / of) } else { "-".to_owned() };
+                let times = [time.median, time.min, time.max, time.mad].map(milliseconds);
+                let head = [s.network.clone(), s.batch.to_string(), s.backend.to_owned(), name.to_owned(), millions(rate)];
+                rows.push([head.to_vec(), times.to_vec(), vec![share(training), share(bound)]].concat());
+            }
+        }
+        let (first, threads) = (&results[0], rayon::current_num_threads());
+        ui.print(&format!(
+            "{}medians of {} repetitions by turns on {threads} threads; rows/s, ms of one call: an epoch of {} rows with its validation, or {:.0} % of as many \
+             rows generated; the bound is what both at full speed on the same cores allow\n",
+            table(&rows),
+            plan.repeat,
+            first.rows,
+            100.0 * first.refresh
+        ))?;
+        Ok(Verdict::Fine)
+    }
+
+    fn in_memory(&self, backends: &[Backend], ui: &Ui) -> anyhow::Result<Verdict> {
         let networks = networks(&self.network, self.features.as_deref())?;
         if let Some(batch) = self.batch.iter().find(|&&b| b == 0 || b > network::MOST_ROWS) {
             bail!("--batch {batch}: must be a multiple of 16, from 16 to {}", network::MOST_ROWS);
@@ -283,7 +352,6 @@ impl BenchTrain {
             None => None,
         };
         let plan = self.common.prepare()?;
-        let backends: Vec<_> = self.backend.iter().map(|&name| name.into()).collect();
         let mut turns = Turns::new(ui, networks.len() * self.batch.len(), plan);
         let mut groups = Vec::new();
         for network in &networks {
@@ -291,9 +359,8 @@ impl BenchTrain {
                 let random: Option<Rows> =
                     given.is_none().then(|| network::random_rows(network.feature_set(), self.rows.max(batch).next_multiple_of(batch)));
                 let rows = given.as_ref().or(random.as_ref()).expect("one of the two");
-                groups.push(
-                    turns.take(&format!("{network}, batch {batch}"), |progress| train::train(plan, network, &backends, rows, batch, progress))?,
-                );
+                groups
+                    .push(turns.take(&format!("{network}, batch {batch}"), |progress| train::train(plan, network, backends, rows, batch, progress))?);
             }
         }
         turns.finish(&summaries(&groups));

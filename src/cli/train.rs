@@ -8,7 +8,7 @@ use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
 use crate::train::checkpoint::{Losses, path_for};
 use crate::train::schedule::Job;
-use crate::train::{Backend, Outcome, train};
+use crate::train::{Backend, BackendError, Outcome, train};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -54,21 +54,30 @@ pub enum BackendName {
     Flex,
     /// burn-ndarray.
     Ndarray,
+    /// burn on a GPU through wgpu, where the program was built with --features wgpu.
+    Wgpu,
+    /// burn on a CUDA device, where the program was built with --features cuda.
+    Cuda,
 }
 
-impl From<BackendName> for Backend {
-    fn from(name: BackendName) -> Self {
-        match name {
-            BackendName::Fused => Self::Fused,
-            BackendName::Flex => Self::Flex,
-            BackendName::Ndarray => Self::Ndarray,
-        }
+impl TryFrom<BackendName> for Backend {
+    type Error = BackendError;
+
+    fn try_from(name: BackendName) -> Result<Self, BackendError> {
+        Self::named(match name {
+            BackendName::Fused => "fused",
+            BackendName::Flex => "flex",
+            BackendName::Ndarray => "ndarray",
+            BackendName::Wgpu => "wgpu",
+            BackendName::Cuda => "cuda",
+        })
     }
 }
 
 impl TrainOptions {
-    /// Reads the configuration with the number of epochs that is asked for.
+    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused before anything is made.
     pub fn configure(&self, path: &Path) -> anyhow::Result<Config> {
+        Backend::try_from(self.backend).context("--backend")?;
         let mut config = Config::load(path)?;
         if let Some(epochs) = self.epochs {
             config.train.epochs = epochs;
@@ -190,7 +199,7 @@ pub fn fit(config: &Config, dataset: &Dataset, options: &TrainOptions, checkpoin
         name: &config.name,
         config: &config.train,
         seed: config.seed,
-        backend: options.backend.into(),
+        backend: options.backend.try_into()?,
         checkpoint,
         resume: options.resume,
         provenance,

@@ -168,6 +168,8 @@ impl RowStream {
     fn part(&self, first: u64, pixels: usize) -> Part {
         let most = if self.config.rows_per_pixel == 0 { usize::MAX } else { self.config.rows_per_pixel as usize };
         let (mut sketch, mut rows, mut part) = (Sketch::default(), Sampled::default(), Part::default());
+        rows.reserve((pixels as u64 * self.made.0 / self.made.1) as usize * 9 / 8, self.width());
+        part.counts.reserve(pixels);
         for index in first..first + pixels as u64 {
             let pixel = self.source.pixel(self.purpose, index, &mut sketch);
             self.extractor.sample(pixel, most, &mut stream(self.seed, CHOICE_PURPOSE, index), &mut rows);

@@ -253,8 +253,8 @@ pub struct Sampled {
     pub alpha: Vec<f32>,
     /// Rows of the last pixel.
     pub of_pixel: usize,
-    /// Absorbance in front of each of them, sixteen partial sums.
-    in_front: Vec<Lanes>,
+    /// Their view depths.
+    before: Vec<f32>,
     /// View depths of the pixel's fragments; beyond the last, infinity.
     view_z: Vec<Lanes>,
     /// Opacities; beyond the last, 0.
@@ -266,16 +266,25 @@ pub struct Sampled {
 }
 
 impl Sampled {
+    /// Room for so many rows more.
+    pub fn reserve(&mut self, rows: usize, width: usize) {
+        self.features.reserve(rows * width);
+        self.targets.reserve(rows);
+        self.alpha.reserve(rows);
+    }
+
     /// Fills the lanes with a pixel: `to_depth` takes view depths to those that the feature set measures.
     fn see(&mut self, pixel: Pixel<'_>, to_depth: &impl ToDepth) {
         let n = pixel.len().div_ceil(LANES);
         for (lanes, values, rest) in [(&mut self.view_z, pixel.view_z, f32::INFINITY), (&mut self.alpha_lanes, pixel.alpha, 0.0)] {
             lanes.clear();
-            lanes.extend(values.chunks(LANES).map(|chunk| {
+            let (whole, last) = values.as_chunks();
+            lanes.extend(whole.iter().map(|&chunk| Lanes(chunk)));
+            if !last.is_empty() {
                 let mut out = [rest; LANES];
-                out[..chunk.len()].copy_from_slice(chunk);
-                Lanes(out)
-            }));
+                out[..last.len()].copy_from_slice(last);
+                lanes.push(Lanes(out));
+            }
         }
         self.depth.resize(n, Lanes::ZERO);
         self.absorbance.resize(n, Lanes::ZERO);
@@ -294,9 +303,9 @@ impl Sampled {
     fn choose(&mut self, n: usize, most: usize, rng: &mut Stream, row: impl Fn(usize, &mut Self) -> bool) {
         self.order.clear();
         self.order.extend(0..n as u32);
-        self.in_front.clear();
+        self.before.clear();
         for i in 0..n {
-            if self.in_front.len() == most {
+            if self.before.len() == most {
                 break;
             }
             if most < n {
@@ -304,15 +313,13 @@ impl Sampled {
             }
             let chosen = self.order[i] as usize;
             if row(chosen, self) {
-                let mut partial = Lanes::ZERO;
-                let before = at(&self.view_z, chosen);
-                dispatch!(Level::new(), simd => partial.store(in_front_lanes(simd, &self.view_z, &self.absorbance, before)));
-                self.in_front.push(partial);
+                self.before.push(at(&self.view_z, chosen));
                 self.alpha.push(at(&self.alpha_lanes, chosen));
             }
         }
-        self.of_pixel = self.in_front.len();
-        transmittances(&self.in_front, &mut self.targets);
+        self.of_pixel = self.before.len();
+        let Self { view_z, absorbance, before, targets, .. } = self;
+        dispatch!(Level::new(), simd => transmittances(simd, view_z, absorbance, before, targets));
     }
 }
 
@@ -351,25 +358,29 @@ fn see_lanes<S: Simd>(simd: S, to_depth: &impl ToDepth, view_z: &[Lanes], alpha:
     }
 }
 
-/// Absorbance in front of a view depth, in sixteen partial sums.
+/// Appends the transmittance of what lies in front of each of these view depths.
+///
+/// Absorbance is added up in sixteen partial sums, and those from the first to the last: in the same order at every SIMD level.
 #[inline(always)]
-fn in_front_lanes<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], before: f32) -> f32x16<S> {
-    let (zero, before) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, before));
-    let parts = view_z.iter().zip(absorbance).map(|(v, a)| v.load(simd).simd_lt(before).select(a.load(simd), zero));
-    parts.fold(zero, |sum, part| sum + part)
-}
-
-/// The transmittances of optical depths that are given in sixteen partial sums each, added up from the first to the last.
-fn transmittances(partial: &[Lanes], out: &mut Vec<f32>) {
-    for partial in partial.chunks(LANES) {
+fn transmittances<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], before: &[f32], out: &mut Vec<f32>) {
+    let zero = f32x16::splat(simd, 0.0);
+    for before in before.chunks(LANES) {
+        let mut partial = [Lanes::ZERO; LANES];
+        for (partial, &before) in partial.iter_mut().zip(before) {
+            let (mut sum, before) = (zero, f32x16::splat(simd, before));
+            for (v, a) in view_z.iter().zip(absorbance) {
+                sum += v.load(simd).simd_lt(before).select(a.load(simd), zero);
+            }
+            partial.store(sum);
+        }
         let mut depth = Lanes::ZERO;
         for lane in 0..LANES {
-            for (sum, partial) in depth.0.iter_mut().zip(partial) {
+            for (sum, partial) in depth.0.iter_mut().zip(&partial[..before.len()]) {
                 *sum += partial.0[lane];
             }
         }
-        dispatch!(Level::new(), simd => depth.store(lanes::exp(simd, -depth.load(simd))));
-        out.extend_from_slice(&depth.0[..partial.len()]);
+        depth.store(lanes::exp(simd, -depth.load(simd)));
+        out.extend_from_slice(&depth.0[..before.len()]);
     }
 }
 
@@ -401,12 +412,14 @@ fn sums_lanes<S: Simd, const K: usize>(simd: S, n: usize, view_z: &[Lanes], dept
     }
     (sums.nearest, sums.farthest) = (nearest.reduce_min(), farthest.reduce_max());
     // Depths grow with view depths, and equal ones are equal.
-    let depth_at = |end: f32| {
-        let matches = view_z.iter().zip(depth).map(|(v, z)| v.load(simd).simd_eq(splat(end)).select(z.load(simd), none));
-        matches.fold(none, |found, z| found.max(z)).reduce_max()
-    };
-    let ends = [depth_at(sums.nearest), depth_at(sums.farthest)];
-    (sums, ends)
+    let (nearest, farthest) = (splat(sums.nearest), splat(sums.farthest));
+    let mut ends = [none; 2];
+    for (v, z) in view_z.iter().zip(depth) {
+        let (v, z) = (v.load(simd), z.load(simd));
+        ends[0] = ends[0].max(v.simd_eq(nearest).select(z, none));
+        ends[1] = ends[1].max(v.simd_eq(farthest).select(z, none));
+    }
+    (sums, [ends[0].reduce_max(), ends[1].reduce_max()])
 }
 
 /// What a feature set says of some fragments.

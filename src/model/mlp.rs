@@ -1,12 +1,12 @@
 //! A multilayer perceptron as plain arrays, with the forward pass that every export is held to.
 
 use super::Provenance;
-use super::kernel::{Row, TILE, ZEROS, hidden, logit, padded};
+use super::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden_layers, logit};
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use crate::numeric::Real;
 use crate::numeric::lanes::{self, LANES, Lanes};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch, f32x16};
+use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 /// Most units of one layer.
@@ -295,52 +295,36 @@ impl Mlp {
         let width = self.layers[0].inputs;
         assert_eq!(rows.len() % width, 0, "whole rows of {width} features");
         let mut out = vec![0.0; rows.len() / width];
-        let network = Padded::new(self);
+        let network = Batched::new(self);
         let level = Level::new();
         // Several tiles a task outweigh handing it over.
         const TASK: usize = 8 * TILE * LANES;
         out.par_chunks_mut(TASK)
             .zip(rows.par_chunks(TASK * width))
-            .for_each_init(|| vec![ZEROS; network.sizes.iter().sum()], |work, (out, rows)| network.run(level, rows, out, work));
+            .for_each_init(|| vec![ZEROS; network.padded.rows()], |work, (out, rows)| network.run(level, rows, out, work));
         out
     }
 }
 
-/// A network as the kernels read it: hidden layers padded with units that are always 0.
-struct Padded {
-    /// Inputs, then padded hidden layers.
-    sizes: Vec<usize>,
-    /// Weights `[in][out]` and biases of every layer, the output layer's last.
-    layers: Vec<(Vec<f32>, Vec<f32>)>,
+/// A network as [`Mlp::predict`] runs it.
+struct Batched {
+    padded: Padded,
+    parameters: Vec<f32>,
     answer: Answer,
 }
 
-impl Padded {
+impl Batched {
     fn new(mlp: &Mlp) -> Self {
-        let last = mlp.layers.len() - 1;
-        let mut sizes = vec![mlp.layers[0].inputs];
-        let mut layers = Vec::new();
-        for (index, dense) in mlp.layers.iter().enumerate() {
-            let (inputs, outputs) = (sizes[index], if index == last { 1 } else { padded(dense.outputs) });
-            let mut weights = vec![0.0; inputs * outputs];
-            for (to, from) in weights.chunks_exact_mut(outputs).zip(dense.weights.chunks_exact(dense.outputs)) {
-                to[..dense.outputs].copy_from_slice(from);
-            }
-            let mut biases = dense.biases.clone();
-            biases.resize(outputs, 0.0);
-            layers.push((weights, biases));
-            if index < last {
-                sizes.push(outputs);
-            }
-        }
-        Self { sizes, layers, answer: mlp.feature_set.answer() }
+        let padded = Padded::new(&mlp.layers.iter().map(|l| (l.inputs, l.outputs)).collect::<Vec<_>>());
+        let plain: Vec<f32> = mlp.layers.iter().flat_map(|l| l.weights.iter().chain(&l.biases).copied()).collect();
+        Self { parameters: padded.pad(&plain), padded, answer: mlp.feature_set.answer() }
     }
 
     fn run(&self, level: Level, rows: &[f32], out: &mut [f32], work: &mut [Row]) {
         // The sizes of the networks that are shipped are known at compile time.
-        match self.sizes[..] {
+        match *self.padded.sizes() {
             [7, 32, 16] => dispatch!(level, simd => self.tiles(simd, &[7, 32, 16], rows, out, work)),
-            _ => dispatch!(level, simd => self.tiles(simd, &self.sizes, rows, out, work)),
+            _ => dispatch!(level, simd => self.tiles(simd, self.padded.sizes(), rows, out, work)),
         }
     }
 
@@ -360,23 +344,16 @@ impl Padded {
     /// Answers of one tile, whose features are the first rows of `work`.
     #[inline(always)]
     fn tile<S: Simd>(&self, simd: S, sizes: &[usize], out: &mut [f32], work: &mut [Row]) {
-        let mut first = 0;
-        for (index, s) in sizes.windows(2).enumerate() {
-            let (x, y) = work[first..].split_at_mut(s[0]);
-            let (w, b) = &self.layers[index];
-            hidden(simd, s[0], s[1], w, b, x, y);
-            first += s[0];
-        }
-        let (w, b) = &self.layers[sizes.len() - 1];
-        let h = &work[first..first + sizes[sizes.len() - 1]];
+        let (first, at) = hidden_layers(simd, sizes, &self.parameters, work);
+        let units = sizes[sizes.len() - 1];
+        let (w, b) = (&self.parameters[at..at + units], self.parameters[at + units]);
+        let h = &work[first..first + units];
         for (v, out) in out.chunks_mut(LANES).enumerate() {
-            let s = lanes::sigmoid(simd, logit(simd, w, b[0], h, v));
+            let s = lanes::sigmoid(simd, logit(simd, w, b, h, v));
             let value = match self.answer {
                 Answer::Sigmoid => s,
                 Answer::Fraction { column, offset } => {
-                    let splat = |x: f32| f32x16::splat(simd, x);
-                    let log = work[column][v].load(simd).min(splat(MOST_LOG_ABSORBANCE));
-                    let absorbance = (lanes::exp(simd, log) - splat(offset)).max(splat(0.0));
+                    let absorbance = absorbance(simd, work[column][v].load(simd), offset);
                     lanes::exp(simd, -(absorbance * s))
                 }
             };
@@ -389,7 +366,7 @@ impl Padded {
 
 /// A network made ready to answer tiles of rows that stand column by column, without turning them around: [`Mlp::predict`] for those who make rows in lanes.
 pub struct Tiled {
-    network: Padded,
+    network: Batched,
     level: Level,
 }
 
@@ -399,12 +376,12 @@ impl Tiled {
 
     /// The network.
     pub fn new(mlp: &Mlp) -> Self {
-        Self { network: Padded::new(mlp), level: Level::new() }
+        Self { network: Batched::new(mlp), level: Level::new() }
     }
 
     /// What one thread works in.
     pub fn work(&self) -> Vec<Row> {
-        vec![ZEROS; self.network.sizes.iter().sum()]
+        vec![ZEROS; self.network.padded.rows()]
     }
 
     /// Answers to `out.len()` rows, the same to the bit as [`Mlp::predict`]'s.
@@ -416,10 +393,10 @@ impl Tiled {
     /// If either is too short or too long.
     pub fn answer(&self, work: &mut [Row], out: &mut [f32]) {
         assert!(out.len() <= Self::ROWS, "at most {} rows", Self::ROWS);
-        match self.network.sizes[..] {
+        match *self.network.padded.sizes() {
             [7, 32, 16] => dispatch!(self.level, simd => self.network.tile(simd, &[7, 32, 16], out, work)),
             [7, 16, 8] => dispatch!(self.level, simd => self.network.tile(simd, &[7, 16, 8], out, work)),
-            _ => dispatch!(self.level, simd => self.network.tile(simd, &self.network.sizes, out, work)),
+            _ => dispatch!(self.level, simd => self.network.tile(simd, self.network.padded.sizes(), out, work)),
         }
     }
 }

@@ -20,12 +20,12 @@ const fn above(high: u32) -> f64 {
     f64::from_bits((high as u64 + 1) << 32)
 }
 
-/// Σ_i c\[i\] x^i.
+/// Σ_i c\[i\] x^i, the bits of the coefficients given.
 #[inline(always)]
-fn polynomial<S: Simd, const N: usize>(simd: S, c: [f64; N], x: f64x8<S>) -> f64x8<S> {
-    let mut p = f64x8::splat(simd, c[N - 1]);
-    for &c in c[..N - 1].iter().rev() {
-        p = f64x8::splat(simd, c) + x * p;
+fn polynomial<S: Simd, const N: usize>(simd: S, c: [u64; N], x: f64x8<S>) -> f64x8<S> {
+    let mut p = f64x8::splat(simd, f64::from_bits(c[N - 1]));
+    for i in (0..N - 1).rev() {
+        p = f64x8::splat(simd, f64::from_bits(c[i])) + x * p;
     }
     p
 }
@@ -50,11 +50,8 @@ pub fn exp<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
     let (hi, lo) = (x - k * splat(LN_2[0]), k * splat(LN_2[1]));
     let r = hi - lo;
     let square = r * r;
-    let p = polynomial(
-        simd,
-        [0x3fc5_5555_5555_553e, 0xbf66_c16c_16be_bd93, 0x3f11_566a_af25_de2c, 0xbebb_bd41_c5d2_6bf1, 0x3e66_3769_72be_a4d0].map(f64::from_bits),
-        square,
-    );
+    let p =
+        polynomial(simd, [0x3fc5_5555_5555_553e, 0xbf66_c16c_16be_bd93, 0x3f11_566a_af25_de2c, 0xbebb_bd41_c5d2_6bf1, 0x3e66_3769_72be_a4d0], square);
     let c = r - square * p;
     let y = one + ((r * c / (splat(2.0) - c) - lo) + hi);
     // Adding 1.5 · 2^52 leaves k in the lowest bits.
@@ -86,8 +83,8 @@ pub fn ln<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
     let s = f / (splat(2.0) + f);
     let z = s * s;
     let w = z * z;
-    let odd = [0x3fd9_9999_9997_fa04, 0x3fcc_71c5_1d8e_78af, 0x3fc3_9a09_d078_c69f].map(f64::from_bits);
-    let even = [0x3fe5_5555_5555_5593, 0x3fd2_4924_9422_9359, 0x3fc7_4664_96cb_03de, 0x3fc2_f112_df3e_5244].map(f64::from_bits);
+    let odd = [0x3fd9_9999_9997_fa04, 0x3fcc_71c5_1d8e_78af, 0x3fc3_9a09_d078_c69f];
+    let even = [0x3fe5_5555_5555_5593, 0x3fd2_4924_9422_9359, 0x3fc7_4664_96cb_03de, 0x3fc2_f112_df3e_5244];
     let r = z * polynomial(simd, even, w) + w * polynomial(simd, odd, w);
     (((s * (half_square + r) + k * splat(LN_2[1])) - half_square) + f) + k * splat(LN_2[0])
 }
@@ -107,36 +104,37 @@ pub fn sincos<S: Simd>(simd: S, x: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let splat = |v: f64| f64x8::splat(simd, v);
     let (zero, one) = (splat(0.0), splat(1.0));
     // The number of the quarter turn that x is next to, by the upper half of x.
-    let quarter =
-        [0x3fe9_21fb, 0x4002_d97c, 0x400f_6a7a, 0x4015_fdbc].into_iter().fold(zero, |n, high| n + x.simd_ge(splat(above(high))).select(one, zero));
+    let mut quarter = zero;
+    for high in [0x3fe9_21fb, 0x4002_d97c, 0x400f_6a7a, 0x4015_fdbc] {
+        quarter += x.simd_ge(splat(above(high))).select(one, zero);
+    }
     let turned = x - quarter * splat(HALF_PI[0]);
     let rest = quarter * splat(HALF_PI[1]);
     let y = turned - rest;
     let tail = (turned - y) - rest;
     let z = y * y;
     let (w, v) = (z * z, z * y);
-    let [s1, s2, s3, s4, s5, s6] =
-        [0xbfc5_5555_5555_5549, 0x3f81_1111_1110_f8a6, 0xbf2a_01a0_19c1_61d5, 0x3ec7_1de3_57b1_fe7d, 0xbe5a_e5e6_8a2b_9ceb, 0x3de5_d93a_5acf_d57c]
-            .map(|bits| splat(f64::from_bits(bits)));
-    let r = (s2 + z * (s3 + z * s4)) + (z * w) * (s5 + z * s6);
+    let bits = |bits: u64| f64x8::splat(simd, f64::from_bits(bits));
+    let s1 = bits(0xbfc5_5555_5555_5549);
+    let low = bits(0x3f81_1111_1110_f8a6) + z * (bits(0xbf2a_01a0_19c1_61d5) + z * bits(0x3ec7_1de3_57b1_fe7d));
+    let r = low + (z * w) * (bits(0xbe5a_e5e6_8a2b_9ceb) + z * bits(0x3de5_d93a_5acf_d57c));
     let near = y + v * (s1 + z * r);
     let far = y - ((z * (splat(0.5) * tail - v * r) - tail) - v * s1);
     let sin = quarter.simd_eq(zero).select(near, far);
-    let [c1, c2, c3, c4, c5, c6] =
-        [0x3fa5_5555_5555_554c, 0xbf56_c16c_16c1_5177, 0x3efa_01a0_19cb_1590, 0xbe92_7e4f_809c_52ad, 0x3e21_ee9e_bdb4_b1c4, 0xbda8_fae9_be88_38d4]
-            .map(|bits| splat(f64::from_bits(bits)));
-    let r = z * (c1 + z * (c2 + z * c3)) + (w * w) * (c4 + z * (c5 + z * c6));
+    let low = bits(0x3fa5_5555_5555_554c) + z * (bits(0xbf56_c16c_16c1_5177) + z * bits(0x3efa_01a0_19cb_1590));
+    let high = bits(0xbe92_7e4f_809c_52ad) + z * (bits(0x3e21_ee9e_bdb4_b1c4) + z * bits(0xbda8_fae9_be88_38d4));
+    let r = z * low + (w * w) * high;
     let half = splat(0.5) * z;
     let w = one - half;
     let cos = w + (((one - w) - half) + (z * r - y * tail));
     // Quarter turns: (s, c), (c, −s), (−s, −c), (−c, s), and (s, c) again.
-    let [odd, back, down] = [[1.0, 3.0], [2.0, 3.0], [1.0, 2.0]].map(|[a, b]| quarter.simd_eq(splat(a)) | quarter.simd_eq(splat(b)));
+    let (first, second, third) = (quarter.simd_eq(one), quarter.simd_eq(splat(2.0)), quarter.simd_eq(splat(3.0)));
+    let (odd, back, down) = (first | third, second | third, first | second);
     let (s, c) = (odd.select(cos, sin), odd.select(sin, cos));
     let (mut s, mut c) = (back.select(-s, s), down.select(-c, c));
     // Next to a multiple of π/2 the reduction cancels, and takes more digits of π than it has here.
     let high = x.to_bits() >> 32;
-    let cancels = [0x3ff9_21fb, 0x4009_21fb, 0x4012_d97c, 0x4019_21fb].map(|h| high.simd_eq(h));
-    let cancels = (cancels[0] | cancels[1]) | (cancels[2] | cancels[3]);
+    let cancels = (high.simd_eq(0x3ff9_21fb) | high.simd_eq(0x4009_21fb)) | (high.simd_eq(0x4012_d97c) | high.simd_eq(0x4019_21fb));
     if cancels.any_true() {
         let (x, lanes): ([f64; DOUBLES], u64) = (x.into(), cancels.to_bitmask());
         let (mut sines, mut cosines): ([f64; DOUBLES], [f64; DOUBLES]) = (s.into(), c.into());

@@ -84,7 +84,7 @@ mod tests {
     use crate::oit::weighted_blended::{Weight, WeightedBlended};
     use crate::synth::SynthConfig;
     use crate::train::schedule::Job;
-    use crate::train::{Backend, Outcome, TrainConfig, train};
+    use crate::train::{Backend, Engine, Outcome, TrainConfig, train};
 
     /// The part of the configuration that the library knows.
     #[derive(serde::Deserialize)]
@@ -110,7 +110,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let checkpoint = folder.path().join("c.json");
         let provenance = Provenance::default();
-        let job = Job { name: "deep", config, seed: 5, backend: Backend::Flex, checkpoint: &checkpoint, resume: false, provenance };
+        let job = Job { name: "deep", config, seed: 5, backend: Backend::Burn(Engine::Flex), checkpoint: &checkpoint, resume: false, provenance };
         match train(dataset, &job, &|| false, &mut |_| {}).unwrap() {
             Outcome::Finished { mlp, .. } => *mlp,
             other => panic!("{other:?}"),

@@ -18,8 +18,8 @@ const MOST_MATERIALS: usize = 4;
 /// Least opacity of a nearly opaque fragment.
 const NEARLY_OPAQUE: f64 = 0.9;
 
-/// What fills a last vector up: in the domain of all that is computed here.
-const FILLER: f64 = 0.5;
+/// What fills a last vector up: in the domain of all that is computed here, and no special case of it.
+const FILLER: f64 = 0.125;
 
 /// A whole number below n of a random word, uniform but for a bias below n/2^32.
 fn below(word: u32, n: usize) -> usize {
@@ -538,10 +538,16 @@ fn stretch(depth: &mut [f64], center: f64, half: f64) {
     #[inline(always)]
     fn ends<S: Simd>(simd: S, x: &[f64]) -> (f64, f64) {
         let (whole, rest) = x.as_chunks::<DOUBLES>();
-        let start = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, f64::NEG_INFINITY));
-        let (lo, hi) = whole.iter().map(|x| f64x8::from_slice(simd, x)).fold(start, |(lo, hi), x| (lo.min(x), hi.max(x)));
-        let ends = (lo.reduce_min(), hi.reduce_max());
-        rest.iter().fold(ends, |(lo, hi), &x| (lo.min(x), hi.max(x)))
+        let (mut lo, mut hi) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, f64::NEG_INFINITY));
+        for x in whole {
+            let x = f64x8::from_slice(simd, x);
+            (lo, hi) = (lo.min(x), hi.max(x));
+        }
+        let (mut lo, mut hi) = (lo.reduce_min(), hi.reduce_max());
+        for &x in rest {
+            (lo, hi) = (lo.min(x), hi.max(x));
+        }
+        (lo, hi)
     }
     let (lo, hi) = dispatch!(Level::new(), simd => ends(simd, depth));
     if lo < hi {

@@ -9,8 +9,9 @@
 use super::Optimiser;
 use super::schedule::TrainError;
 use crate::dataset::build::normalise;
+use crate::dataset::file::Manifest;
 use crate::dataset::stream::Making;
-use crate::dataset::{Batch, Blocks, Dataset, DatasetError, RowStream};
+use crate::dataset::{Batch, Blocks, DatasetError, RowStream, Rows};
 use crate::numeric::lanes::LANES;
 use crate::numeric::rng::stream;
 use crate::synth::Purpose;
@@ -49,16 +50,14 @@ struct Prepared {
 }
 
 impl Feed {
-    /// The feed as it stands after so many epochs, for steps of `batch` rows.
+    /// The feed of these rows as it stands after so many epochs, for steps of `batch` rows; the manifest says where fresh ones come from, if anywhere.
     ///
     /// # Errors
     /// [`TrainError::NoStream`] where fresh pixels are asked for and no distribution is known; [`TrainError::Dataset`] where it is invalid.
-    pub fn new(dataset: &Dataset, seed: u64, batch: usize, epochs: u64) -> Result<Self, TrainError> {
-        let rows = &dataset.training;
+    pub fn new(rows: &Rows, manifest: &Manifest, seed: u64, batch: usize, epochs: u64) -> Result<Self, TrainError> {
         let mut order: Vec<u32> = (0..rows.len() as u32).collect();
         order.shuffle(&mut stream(seed, PURPOSE, 0));
         let blocks = Blocks::of(rows, &order);
-        let manifest = &dataset.manifest;
         let refresh = manifest.dataset.refresh;
         let stream = match (refresh > 0.0, &manifest.synth) {
             (false, _) => None,

@@ -6,8 +6,8 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::{Batch, Blocks};
-use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
-use crate::model::kernel::{Row, TILE, ZEROS, hidden, logit, padded, wide};
+use crate::features::{Answer, FeatureSet};
+use crate::model::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden, hidden_layers, logit, wide};
 use crate::numeric::lanes::{Lanes, exp, sigmoid};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
@@ -19,62 +19,6 @@ const CHUNK: usize = 128;
 /// Errors and their derivatives below these are 0: what they would add is lost in rounding, and denormal numbers would make every multiplication slow.
 const LEAST_ERROR: f32 = 1e-12;
 const LEAST_DERIVATIVE: f32 = 1e-18;
-
-/// Sizes of a network's layers, and where their parameters stand among the padded ones.
-#[derive(Debug, Clone)]
-struct Layout {
-    /// Inputs, then hidden layers padded to whole registers.
-    sizes: Vec<usize>,
-    /// The same without padding.
-    shapes: Vec<(usize, usize)>,
-    /// How the logit becomes the answer.
-    answer: Answer,
-}
-
-impl Layout {
-    fn new(set: FeatureSet, shapes: &[(usize, usize)]) -> Self {
-        let hidden = shapes[..shapes.len() - 1].iter().map(|s| padded(s.1));
-        Self { sizes: std::iter::once(shapes[0].0).chain(hidden).collect(), shapes: shapes.to_vec(), answer: set.answer() }
-    }
-
-    /// Number of padded parameters: of every hidden layer weights, then biases; of the output layer weights, then its bias.
-    fn count(&self) -> usize {
-        self.sizes.windows(2).map(|s| (s[0] + 1) * s[1]).sum::<usize>() + self.sizes[self.sizes.len() - 1] + 1
-    }
-
-    /// Calls with the padded and the plain place of every parameter.
-    fn places(&self, mut visit: impl FnMut(usize, usize)) {
-        let (mut padded_at, mut at) = (0, 0);
-        for (index, &(inputs, outputs)) in self.shapes.iter().enumerate() {
-            let padded_inputs = self.sizes[index];
-            let padded_outputs = self.sizes.get(index + 1).copied().unwrap_or(1);
-            for i in 0..inputs {
-                for o in 0..outputs {
-                    visit(padded_at + i * padded_outputs + o, at);
-                    at += 1;
-                }
-            }
-            padded_at += padded_inputs * padded_outputs;
-            for o in 0..outputs {
-                visit(padded_at + o, at);
-                at += 1;
-            }
-            padded_at += padded_outputs;
-        }
-    }
-
-    fn pad(&self, plain: &[f32]) -> Vec<f32> {
-        let mut out = vec![0.0; self.count()];
-        self.places(|p, at| out[p] = plain[at]);
-        out
-    }
-
-    fn unpad(&self, padded: &[f32]) -> Vec<f32> {
-        let mut out = vec![0.0; super::initial::count(&self.shapes)];
-        self.places(|p, at| out[at] = padded[p]);
-        out
-    }
-}
 
 /// What a task works in; made once.
 #[derive(Debug, Clone)]
@@ -211,8 +155,7 @@ fn output<S: Simd>(
         let (value, slope) = match answer {
             Answer::Sigmoid => (s, slope),
             Answer::Fraction { column, offset } => {
-                let log = block[column].load(simd).min(splat(MOST_LOG_ABSORBANCE));
-                let absorbance = (exp(simd, log) - splat(offset)).max(zero);
+                let absorbance = absorbance(simd, block[column].load(simd), offset);
                 let value = exp(simd, -(absorbance * s));
                 (value, -(value * absorbance) * slope)
             }
@@ -257,14 +200,7 @@ fn fill(width: usize, batch: Batch<'_>, rows: &mut [Row]) {
 fn tile<S: Simd>(simd: S, sizes: &[usize], p: &[f32], answer: Answer, batch: Batch<'_>, work: &mut Workspace, scale: f32) -> f32x16<S> {
     let Workspace { rows, delta, sums, .. } = work;
     fill(sizes[0], batch, rows);
-    let (mut row, mut at) = (0, 0);
-    for s in sizes.windows(2) {
-        let (x, y) = rows[row..].split_at_mut(s[0]);
-        let (w, b) = p[at..].split_at(s[0] * s[1]);
-        hidden(simd, s[0], s[1], w, b, x, y);
-        row += s[0];
-        at += (s[0] + 1) * s[1];
-    }
+    let (mut row, mut at) = hidden_layers(simd, sizes, p, rows);
     let last = sizes[sizes.len() - 1];
     // Without a hidden layer the inputs' own derivatives would overwrite them; they are filled anew for the next tile.
     let error = output(simd, last, &p[at..], answer, batch, &mut rows[row..], delta, &mut sums[at..], scale);
@@ -364,7 +300,8 @@ fn any(level: Level, sizes: &[usize], p: &[f32], answer: Answer, batch: Batch<'_
 
 /// A network being fitted by the fused kernel.
 pub struct Fused {
-    layout: Layout,
+    network: Padded,
+    answer: Answer,
     level: Level,
     kernel: Kernel,
     parameters: Vec<f32>,
@@ -381,16 +318,17 @@ impl Fused {
 
     /// An optimiser on a given SIMD level.
     pub fn at_level(level: Level, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
-        let layout = Layout::new(set, shapes);
-        let count = layout.count();
+        let network = Padded::new(shapes);
+        let count = network.count();
         Self {
-            parameters: layout.pad(parameters),
+            answer: set.answer(),
+            parameters: network.pad(parameters),
             adam: Adam::new(count, config),
-            kernel: kernel_for(&layout.sizes),
+            kernel: kernel_for(network.sizes()),
             works: Vec::new(),
             gradient: vec![0.0; count],
             level,
-            layout,
+            network,
         }
     }
 
@@ -404,9 +342,9 @@ impl Fused {
         let rows = batch.rows();
         let chunks = batch.order.len().div_ceil(CHUNK);
         if self.works.len() < chunks {
-            let count = self.layout.count();
+            let count = self.network.count();
             let work = Workspace {
-                rows: vec![ZEROS; self.layout.sizes.iter().sum()],
+                rows: vec![ZEROS; self.network.rows()],
                 delta: ZEROS,
                 sums: vec![Lanes::ZERO; count],
                 gradient: vec![0.0; count],
@@ -414,10 +352,10 @@ impl Fused {
             };
             self.works.resize(chunks, work);
         }
-        let Self { layout, level, kernel, parameters, works, gradient, .. } = self;
+        let Self { network, answer, level, kernel, parameters, works, gradient, .. } = self;
         let scale = 2.0 / rows as f32;
         works[..chunks].par_iter_mut().zip(batch.order.par_chunks(CHUNK)).for_each(|(work, order)| {
-            kernel(*level, &layout.sizes, parameters, layout.answer, Batch { order, ..batch }, work, scale);
+            kernel(*level, network.sizes(), parameters, *answer, Batch { order, ..batch }, work, scale);
         });
         gradient.copy_from_slice(&works[0].gradient);
         for work in &works[1..chunks] {
@@ -451,20 +389,20 @@ impl Optimiser for Fused {
 
     fn gradient(&mut self, batch: Batch<'_>) -> (f64, Vec<f32>) {
         let error = self.backward(batch);
-        (error, self.layout.unpad(&self.gradient))
+        (error, self.network.unpad(&self.gradient))
     }
 
     fn parameters(&self) -> Vec<f32> {
-        self.layout.unpad(&self.parameters)
+        self.network.unpad(&self.parameters)
     }
 
     fn moments(&self) -> AdamMoments {
-        self.adam.moments(|padded| self.layout.unpad(padded))
+        self.adam.moments(|padded| self.network.unpad(padded))
     }
 
     fn restore(&mut self, parameters: &[f32], moments: &AdamMoments) {
-        self.parameters = self.layout.pad(parameters);
-        self.adam.restore(moments, |plain| self.layout.pad(plain));
+        self.parameters = self.network.pad(parameters);
+        self.adam.restore(moments, |plain| self.network.pad(plain));
     }
 }
 

@@ -9,6 +9,7 @@ pub mod initial;
 pub mod scalar;
 pub mod schedule;
 
+pub use burn::Engine;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use schedule::{EpochReport, Outcome, TrainError, train};
 
@@ -138,32 +139,96 @@ impl TrainConfig {
 
 /// What computes gradients and takes Adam's steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(try_from = "String", into = "String")]
 pub enum Backend {
     /// Our own kernel; see [`fused`].
     Fused,
-    /// burn on its `flex` CPU backend.
-    Flex,
-    /// burn on its `ndarray` CPU backend (burn-ndarray).
-    Ndarray,
+    /// One of burn's.
+    Burn(Engine),
+}
+
+/// Why a backend cannot be had.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BackendError {
+    /// There is none of that name.
+    #[error("backend '{0}': there is none of that name; there are {list}", list = Backend::NAMES.join(", "))]
+    Unknown(String),
+    /// It is left out of this program.
+    #[error(
+        "backend '{0}': this program was built without it; build it with 'cargo build --release --features {0}', or choose fused, which needs no GPU"
+    )]
+    NotBuilt(&'static str),
+    /// There is nothing to compute on.
+    #[error("backend '{name}': {reason}; choose fused, which needs no GPU")]
+    NoDevice {
+        /// The backend.
+        name: &'static str,
+        /// What it says.
+        reason: String,
+    },
 }
 
 impl Backend {
+    /// Names of all backends, of those too that this program may have been built without.
+    pub const NAMES: [&str; 5] = ["fused", "flex", "ndarray", "wgpu", "cuda"];
+
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fused => "fused",
-            Self::Flex => "flex",
-            Self::Ndarray => "ndarray",
+            Self::Burn(engine) => engine.name(),
+        }
+    }
+
+    /// The backend of a name.
+    ///
+    /// # Errors
+    /// [`BackendError::Unknown`]; [`BackendError::NotBuilt`] where the cargo feature of that name was off.
+    pub fn named(name: &str) -> Result<Self, BackendError> {
+        match name {
+            "fused" => Ok(Self::Fused),
+            "flex" => Ok(Self::Burn(Engine::Flex)),
+            "ndarray" => Ok(Self::Burn(Engine::Ndarray)),
+            #[cfg(feature = "wgpu")]
+            "wgpu" => Ok(Self::Burn(Engine::Wgpu)),
+            #[cfg(feature = "cuda")]
+            "cuda" => Ok(Self::Burn(Engine::Cuda)),
+            _ => Err(match Self::NAMES.into_iter().find(|known| *known == name) {
+                Some(known) => BackendError::NotBuilt(known),
+                None => BackendError::Unknown(name.to_owned()),
+            }),
         }
     }
 
     /// An optimiser of this kind, at the given weights and with fresh moments.
-    pub fn optimiser(self, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Box<dyn Optimiser> {
-        match self {
+    ///
+    /// # Errors
+    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on.
+    pub fn optimiser(
+        self,
+        set: FeatureSet,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        config: &TrainConfig,
+    ) -> Result<Box<dyn Optimiser>, BackendError> {
+        Ok(match self {
             Self::Fused => Box::new(fused::Fused::new(set, shapes, parameters, config)),
-            Self::Flex | Self::Ndarray => Box::new(burn::BurnOptimiser::new(self, set, shapes, parameters, config)),
-        }
+            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)?),
+        })
+    }
+}
+
+impl TryFrom<String> for Backend {
+    type Error = BackendError;
+
+    fn try_from(name: String) -> Result<Self, BackendError> {
+        Self::named(&name)
+    }
+}
+
+impl From<Backend> for String {
+    fn from(backend: Backend) -> Self {
+        backend.name().to_owned()
     }
 }
 
@@ -216,13 +281,15 @@ mod tests {
     /// Every way to fit a network: burn's two backends, the kernel at the best and at the least SIMD level, its scalar twin.
     fn optimisers(set: FeatureSet, shapes: &Shapes, parameters: &[f32]) -> Vec<(&'static str, Box<dyn Optimiser>)> {
         let fused = |level| Box::new(Fused::at_level(level, set, shapes, parameters, &config())) as Box<dyn Optimiser>;
-        vec![
+        let mut all: Vec<(&'static str, Box<dyn Optimiser>)> = vec![
             ("scalar", Box::new(scalar::Scalar::new(set, shapes, parameters, &config()))),
             ("fused", fused(Level::new())),
             ("fused, baseline", fused(Level::baseline())),
-            ("flex", Backend::Flex.optimiser(set, shapes, parameters, &config())),
-            ("ndarray", Backend::Ndarray.optimiser(set, shapes, parameters, &config())),
-        ]
+        ];
+        for engine in [Engine::Flex, Engine::Ndarray] {
+            all.push((engine.name(), Backend::Burn(engine).optimiser(set, shapes, parameters, &config()).unwrap()));
+        }
+        all
     }
 
     /// Random rows; every fifth weighs 0, the others 0.5 to 1.5.
@@ -320,7 +387,7 @@ mod tests {
                 assert!(off(&shapes, &gradient, &exact) < 1e-5, "{name} {hidden:?}: {}", off(&shapes, &gradient, &exact));
             }
             let half = Batch { order: &order[..150], ..batch };
-            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).gradient(half);
+            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap().gradient(half);
             assert!(off(&shapes, &other, &exact) > 1e-5, "the control passed");
         }
     }
@@ -333,15 +400,16 @@ mod tests {
         let blocks = blocks(FeatureSet::Recentred, 4096);
         let order = all_blocks(&blocks);
         let path = |backend: Backend, rate: f64| -> Vec<f64> {
-            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config());
+            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config()).unwrap();
             (0..100).map(|step| optimiser.step(Batch { blocks: &blocks, order: &order[16 * (step % 16)..][..16] }, rate)).collect()
         };
         let far = |a: &[f64], b: &[f64]| {
             a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, |m: f64, e| if e.is_nan() { f64::INFINITY } else { m.max(e) })
         };
-        let [fused, flex] = [Backend::Fused, Backend::Flex].map(|b| path(b, 1e-3));
-        assert!(far(&fused, &flex) < 1e-4, "{}", far(&fused, &flex));
-        assert!(far(&fused, &path(Backend::Flex, 2e-3)) > 1e-4);
+        let flex = Backend::Burn(Engine::Flex);
+        let [ours, theirs] = [Backend::Fused, flex].map(|b| path(b, 1e-3));
+        assert!(far(&ours, &theirs) < 1e-4, "{}", far(&ours, &theirs));
+        assert!(far(&ours, &path(flex, 2e-3)) > 1e-4);
     }
 
     #[test]
@@ -352,7 +420,7 @@ mod tests {
         let order = all_blocks(&blocks);
         let [one, three] = [1, 3].map(|threads| {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
-                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config());
+                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config()).unwrap();
                 for _ in 0..5 {
                     optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2);
                 }
@@ -380,7 +448,7 @@ mod tests {
             };
             let blocks = Blocks::of(&rows, &(0..n as u32).collect::<Vec<_>>());
             let order = all_blocks(&blocks);
-            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config());
+            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap();
             for _ in 0..50 {
                 assert!(optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2).is_finite());
             }
@@ -426,6 +494,24 @@ mod tests {
             assert_eq!(resumed.parameters(), straight.parameters(), "{name}");
             assert_eq!(resumed.moments(), straight.moments(), "{name}");
         }
+    }
+
+    /// Every name is known: of what is built in it gives the backend, which gives it back, in files too; of what is not, how to build it.
+    #[test]
+    fn names_of_backends() {
+        for name in Backend::NAMES {
+            match Backend::named(name) {
+                Ok(backend) => {
+                    assert_eq!((backend.name(), String::from(backend).as_str()), (name, name));
+                    assert_eq!(serde_json::from_value::<Backend>(serde_json::to_value(backend).unwrap()).unwrap(), backend);
+                }
+                Err(error) => {
+                    assert!(name == "wgpu" && !cfg!(feature = "wgpu") || name == "cuda" && !cfg!(feature = "cuda"), "{name}");
+                    assert!(error.to_string().contains(&format!("--features {name}")), "{error}");
+                }
+            }
+        }
+        assert!(Backend::named("jax").unwrap_err().to_string().ends_with("there are fused, flex, ndarray, wgpu, cuda"));
     }
 
     #[test]

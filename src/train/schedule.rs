@@ -2,7 +2,7 @@
 
 use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses};
 use super::feed::Feed;
-use super::{AdamMoments, Backend, TrainConfig, TrainConfigError, initial};
+use super::{AdamMoments, Backend, BackendError, TrainConfig, TrainConfigError, initial};
 use crate::dataset::{Dataset, DatasetError, Rows};
 use crate::model::{Mlp, Provenance, ShapeError};
 use crate::numeric::file::FileError;
@@ -14,6 +14,9 @@ pub enum TrainError {
     /// The configuration is invalid.
     #[error(transparent)]
     Config(#[from] TrainConfigError),
+    /// The backend cannot be had.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
     /// The checkpoint cannot be continued from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -127,7 +130,7 @@ fn fit(
     let optimiser = |parameters: &[f32]| backend.optimiser(set, &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
-    let mut fitted = optimiser(&parameters);
+    let mut fitted = optimiser(&parameters)?;
     let mut done = Checkpoint {
         format: "nmt-checkpoint".to_owned(),
         version: CHECKPOINT_VERSION,
@@ -153,14 +156,14 @@ fn fit(
     };
 
     let (first, last) = (done.history.len() as u64 + 1, config.epochs * config.seeds);
-    let mut feed = Feed::new(dataset, seed, config.batch, first - 1)?;
+    let mut feed = Feed::new(&dataset.training, &dataset.manifest, seed, config.batch, first - 1)?;
     let steps_of_epoch = feed.steps();
     let mut samples = 0;
     // Networks follow each other; epochs are counted through.
     for epoch in first..=last {
         let (index, of_network) = ((epoch - 1) / config.epochs, (epoch - 1) % config.epochs);
         if of_network == 0 && epoch > 1 {
-            fitted = optimiser(&initial::glorot(&shapes, seed + index));
+            fitted = optimiser(&initial::glorot(&shapes, seed + index))?;
         }
         let rate = |step| config.learning_rate_at(of_network * steps_of_epoch + step, config.epochs * steps_of_epoch);
         let Some(training) = feed.epoch(epoch, epoch < last, fitted.as_mut(), &rate, stop)? else {
@@ -224,6 +227,7 @@ mod tests {
     use crate::dataset::{DatasetConfig, build};
     use crate::features::FeatureSet;
     use crate::synth::SynthConfig;
+    use crate::train::Engine;
     use std::sync::atomic::{AtomicU32, Ordering};
 
     fn dataset() -> Dataset {
@@ -236,7 +240,7 @@ mod tests {
     }
 
     fn job<'a>(config: &'a TrainConfig, checkpoint: &'a Path, resume: bool) -> Job<'a> {
-        Job { name: "t", config, seed: 11, backend: Backend::Flex, checkpoint, resume, provenance: Provenance::default() }
+        Job { name: "t", config, seed: 11, backend: Backend::Burn(Engine::Flex), checkpoint, resume, provenance: Provenance::default() }
     }
 
     fn finished(outcome: Outcome) -> (Mlp, Vec<Losses>) {
@@ -328,7 +332,7 @@ mod tests {
         let faster = TrainConfig { learning_rate: 1e-2, ..config.clone() };
         assert!(error(&job(&faster, &path, true)).contains("another training configuration"));
         assert!(error(&Job { seed: 12, ..job(&config, &path, true) }).contains("another seed"));
-        assert!(error(&Job { backend: Backend::Ndarray, ..job(&config, &path, true) }).contains("another backend"));
+        assert!(error(&Job { backend: Backend::Burn(Engine::Ndarray), ..job(&config, &path, true) }).contains("another backend"));
         let shorter = TrainConfig { epochs: 1, ..config.clone() };
         assert!(error(&job(&shorter, &path, true)).contains("2 epochs are done already"));
         let longer = TrainConfig { epochs: 6, ..config };

@@ -621,6 +621,43 @@ fn bench_train_measures_every_backend() {
     nmt(&table).success().stderr("").stdout(contains("samples/s").and(contains("multiply-add peak")));
 }
 
+/// Whole epochs with fresh pixels, against rows in memory and against what both halves allow.
+#[test]
+fn bench_train_measures_streams() {
+    let at = Workplace::new();
+    let streamed = at.write("streamed.toml", &TINY.replacen("training_pairs", "refresh = 0.25\ntraining_pairs", 1));
+    let numbers = ["samples_per_second", "in_memory_samples_per_second", "pairs_per_second", "bound_samples_per_second", "batch", "rows", "refresh"];
+    let results = bench(&["train", "--stream", &streamed], &numbers);
+    assert_eq!(
+        results.iter().map(|r| (&r["stream"], &r["backend"], &r["network"])).collect::<Vec<_>>(),
+        [(&"tiny".into(), &"fused".into(), &"7-8-4-1".into())]
+    );
+    let rate = |key: &str| results[0][key].as_f64().unwrap();
+    let bound = 1.0 / (1.0 / rate("in_memory_samples_per_second") + 0.25 / rate("pairs_per_second"));
+    assert!((rate("bound_samples_per_second") / bound - 1.0).abs() < 1e-9);
+    let tiny = ["--backend", "flex", "--repeat", "1", "--sample-seconds", "0.001", "--quiet"];
+    nmt(&[&["bench", "train", "--stream", &streamed], &tiny[..]].concat()).success().stdout(contains("of bound").and(contains("flex")));
+    nmt(&["bench", "train", "--stream", &at.config()]).code(2).stderr(contains("dataset.refresh of 'tiny' is 0"));
+    nmt(&["bench", "train", "--stream", &streamed, "--batch", "64"]).code(2).stderr(contains("--batch"));
+}
+
+/// Backends that this program was built without say how to build it, before anything is made.
+#[test]
+fn backends_that_are_not_built_in() {
+    let at = Workplace::new();
+    for (name, built) in [("wgpu", cfg!(feature = "wgpu")), ("cuda", cfg!(feature = "cuda"))] {
+        if built {
+            continue;
+        }
+        let message = format!("--features {name}");
+        nmt(&["train", &at.config(), "--out", &at.path("b.json"), "--backend", name]).code(2).stderr(contains(message.as_str()));
+        nmt(&["run", &at.config(), "--out", &at.path("run"), "--backend", name]).code(2).stderr(contains(message.as_str()));
+        nmt(&["bench", "train", "--backend", name]).code(2).stderr(contains(message.as_str()));
+    }
+    assert!(!Path::new(&at.path("b.json")).exists() && !Path::new(&at.path("run")).exists());
+    nmt(&["train", "--help"]).success().stdout(contains("wgpu").and(contains("cuda")));
+}
+
 #[test]
 fn bench_generate_measures_configurations() {
     let at = Workplace::new();
