@@ -135,7 +135,8 @@ impl Stress {
         let biases = if self.bias { bias::points(self.pixels) } else { Vec::new() };
         let points = if self.out.is_some() { self.sweeps(ui, &mlps)? } else { Vec::new() };
 
-        let broken: Vec<String> = reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
+        let broken: Vec<String> =
+            reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
         let results = results(&cases, &reports, &features, &found, &biases, &points);
         if let Some(out) = &self.out {
             create_folder(out)?;
@@ -336,14 +337,7 @@ fn run(ui: &Ui, cases: &[Case], subjects: &[&Subject<'_>]) -> Vec<Vec<Report>> {
     reports
 }
 
-fn results(
-    cases: &[Case],
-    reports: &[Vec<Report>],
-    features: &[Report],
-    found: &[Found],
-    biases: &[BiasPoint],
-    points: &[Point],
-) -> Vec<Value> {
+fn results(cases: &[Case], reports: &[Vec<Report>], features: &[Report], found: &[Found], biases: &[BiasPoint], points: &[Point]) -> Vec<Value> {
     let kind = |name: &str, mut value: Value| {
         if let Some(object) = value.as_object_mut() {
             object.insert("kind".to_owned(), name.into());
