@@ -6,6 +6,9 @@
 // algorithm, E_k their squared norms. Their kernel K(1, x) = sum conj(phi_k(1)) phi_k(x) / E_k has the other atoms as its roots, all on the circle. With
 // x = -(1 + i s)/(1 - i s) the circle without 1 becomes the real line and the kernel a real polynomial in s, which grows with the angle. An atom at x has
 // mass 1/K(x, x), and all masses add up to 1: of the atoms before and those behind z, the fewer are looked at.
+//
+// The coefficients q of K(1, x) are conjugate to one another from both ends. Where moments are nearly those of few atoms, phi(1) is a small number that rounding
+// changes, and either end alone is off by as much; their mean vanishes where it should.
 
 // Half of the arc 2 pi - theta that depths map to, theta = pi/10 the wrapping zone.
 const TRIGONOMETRIC_HALF_ARC: f32 = 2.984513;
@@ -83,8 +86,11 @@ fn trigonometric_transmittance_2(b: array<f32, 5>, z: f32, overestimation: f32) 
     let p21 = complex_conjugate_times(m1, r1) - m1;
 
     // The kernel: q1 (real) and q2, then its polynomial in s.
-    let q2 = complex_conjugate(u2) * per2;
-    let q1 = dot(q2, complex_conjugate(p21)) + u1.x * per1;
+    let f1 = complex_conjugate(u1) * per1;
+    let f2 = complex_conjugate(u2) * per2;
+    let q0 = vec2<f32>(1.0, 0.0) - complex_times(f1, m1) - complex_times(f2, r1);
+    let q1 = dot(f2, complex_conjugate(p21)) + f1.x;
+    let q2 = 0.5 * (f2 + complex_conjugate(q0));
     let own = 1.0 / (q1 + 2.0 * q2.x);
     let s = quadratic_roots(2.0 * q2.y * own, (q1 - 2.0 * q2.x) * own);
 
@@ -122,13 +128,19 @@ fn trigonometric_transmittance_3(b: array<f32, 7>, z: f32, overestimation: f32) 
     let e2 = e1 * (1.0 - dot(r1, r1));
     let per2 = 1.0 / e2;
     let r2 = (m3 + complex_times(p21, m2) - complex_times(r1, m1)) * per2;
+    let minus_p31 = complex_times(r2, complex_conjugate(p21)) + r1;
     let p32 = p21 + complex_conjugate_times(r1, r2);
     let u3 = u2 - complex_times(r2, complex_conjugate(u2));
     let per3 = 1.0 / (e2 * (1.0 - dot(r2, r2)));
 
     // The kernel: q2 and q3, then its polynomial in s.
-    let q3 = complex_conjugate(u3) * per3;
-    let q2 = complex_times(q3, p32) + complex_conjugate(u2) * per2;
+    let f1 = complex_conjugate(u1) * per1;
+    let f2 = complex_conjugate(u2) * per2;
+    let f3 = complex_conjugate(u3) * per3;
+    let q0 = vec2<f32>(1.0, 0.0) - complex_times(f1, m1) - complex_times(f2, r1) - complex_times(f3, r2);
+    let q1 = f1 + complex_times(f2, p21) - complex_times(f3, minus_p31);
+    let q2 = 0.5 * (f2 + complex_times(f3, p32) + complex_conjugate(q1));
+    let q3 = 0.5 * (f3 + complex_conjugate(q0));
     let lead = 1.0 / (q2.x + q3.x);
     let own = 0.5 * lead;
     let s = cubic_roots((q2.y + 3.0 * q3.y) * lead, (q2.x - 3.0 * q3.x) * lead, (q2.y - q3.y) * lead);
@@ -185,16 +197,22 @@ fn trigonometric_transmittance_4(b: array<f32, 9>, z: f32, overestimation: f32) 
     let e3 = e2 * (1.0 - dot(r2, r2));
     let per3 = 1.0 / e3;
     let r3 = (m4 + complex_times(p32, m3) - complex_times(minus_p31, m2) - complex_times(r2, m1)) * per3;
+    let minus_p41 = complex_times(r3, complex_conjugate(p32)) + r2;
     let p42 = complex_times(r3, complex_conjugate(minus_p31)) - minus_p31;
     let p43 = p32 + complex_conjugate_times(r2, r3);
     let u4 = u3 - complex_times(r3, complex_conjugate(u3));
     let per4 = 1.0 / (e3 * (1.0 - dot(r3, r3)));
 
     // The kernel: q2 (real), q3 and q4, then its polynomial in s.
-    let q4 = complex_conjugate(u4) * per4;
+    let f1 = complex_conjugate(u1) * per1;
+    let f2 = complex_conjugate(u2) * per2;
     let f3 = complex_conjugate(u3) * per3;
-    let q3 = complex_times(q4, p43) + f3;
-    let q2 = dot(q4, complex_conjugate(p42)) + dot(f3, complex_conjugate(p32)) + u2.x * per2;
+    let f4 = complex_conjugate(u4) * per4;
+    let q0 = vec2<f32>(1.0, 0.0) - complex_times(f1, m1) - complex_times(f2, r1) - complex_times(f3, r2) - complex_times(f4, r3);
+    let q1 = f1 + complex_times(f2, p21) - complex_times(f3, minus_p31) - complex_times(f4, minus_p41);
+    let q2 = f2.x + dot(f3, complex_conjugate(p32)) + dot(f4, complex_conjugate(p42));
+    let q3 = 0.5 * (f3 + complex_times(f4, p43) + complex_conjugate(q1));
+    let q4 = 0.5 * (f4 + complex_conjugate(q0));
     let ends_sum = q2 + 2.0 * q4.x;
     let own = 1.0 / (ends_sum + 2.0 * q3.x);
     let s = quartic_roots(
