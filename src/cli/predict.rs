@@ -3,8 +3,8 @@
 use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
-use crate::features::{MomentFrame, OutputMeaning};
 use crate::features::passes::{Class, Tally};
+use crate::features::{MomentFrame, OutputMeaning};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;

@@ -135,7 +135,8 @@ impl Stress {
         let biases = if self.bias { bias::points(self.pixels) } else { Vec::new() };
         let points = if self.out.is_some() { self.sweeps(ui, &mlps)? } else { Vec::new() };
 
-        let broken: Vec<String> = reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
+        let broken: Vec<String> =
+            reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
         let results = results(&cases, &reports, &features, &found, &biases, &points);
         if let Some(out) = &self.out {
             create_folder(out)?;
@@ -336,14 +337,7 @@ fn run(ui: &Ui, cases: &[Case], subjects: &[&Subject<'_>]) -> Vec<Vec<Report>> {
     reports
 }
 
-fn results(
-    cases: &[Case],
-    reports: &[Vec<Report>],
-    features: &[Report],
-    found: &[Found],
-    biases: &[BiasPoint],
-    points: &[Point],
-) -> Vec<Value> {
+fn results(cases: &[Case], reports: &[Vec<Report>], features: &[Report], found: &[Found], biases: &[BiasPoint], points: &[Point]) -> Vec<Value> {
     let kind = |name: &str, mut value: Value| {
         if let Some(object) = value.as_object_mut() {
             object.insert("kind".to_owned(), name.into());
@@ -376,7 +370,7 @@ fn short(x: Option<f64>) -> String {
     match x {
         None => "-".to_owned(),
         Some(0.0) => "0".to_owned(),
-        Some(x) if x >= 0.0095 => format!("{x:.2}"),
+        Some(x) if (0.0095..100.0).contains(&x) => format!("{x:.2}"),
         Some(x) => format!("{x:.0e}"),
     }
 }
@@ -463,7 +457,11 @@ fn execution_table(reports: &[Vec<Report>]) -> String {
         let case = |name: &str| of_subject.iter().find(|r| r.case == name && r.refused.is_none());
         let mut row = vec![of_subject[0].method.clone(), sum(|r| r.nonfinite).to_string(), sum(|r| r.out_of_range).to_string()];
         row.push(short(case("pair").and_then(|r| r.worst_error)));
-        row.extend(TELLING.map(|name| case(name).and_then(|r| r.mse).map_or("-".to_owned(), |mse| format!("{:.4}", mse.sqrt()))));
+        row.extend(TELLING.map(|name| {
+            case(name)
+                .and_then(|r| r.mse)
+                .map_or("-".to_owned(), |mse| if mse < 100.0 { format!("{:.4}", mse.sqrt()) } else { short(Some(mse.sqrt())) })
+        }));
         row.push(short(of_subject.iter().map(|r| r.order_spread).reduce(f64::max)));
         row.push(percent(sum(|r| r.rises) as f64 / sum(|r| r.fragments).max(1) as f64));
         rows.push(row);

@@ -74,16 +74,17 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
         return 1.0;
     }}
     if (f.v == p.farthest) {{
-        return exp(-others);
+        return min(exp(-others), 1.0);
     }}
     let own = oit_accumulate(f);
     let among_others = {curve}(array<f32, OIT_SUMS>({}), f.z, 0.5);
-    // NaN compares with nothing.
+    // Whatever rounding makes of it, between none and all of the others lie in front. NaN compares with nothing.
+    let least = min(exp(-others), 1.0);
     if (among_others < 1.001) {{
-        return among_others;
+        return clamp(among_others, least, 1.0);
     }}
     let among_all = {curve}(p.sums, f.z, {OVERESTIMATION});
-    return select(exp(-0.5 * others), among_all, among_all < 1.001);
+    return clamp(select(exp(-0.5 * others), among_all, among_all < 1.001), least, 1.0);
 }}
 ",
         others.join(", ")
