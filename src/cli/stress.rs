@@ -370,7 +370,7 @@ fn short(x: Option<f64>) -> String {
     match x {
         None => "-".to_owned(),
         Some(0.0) => "0".to_owned(),
-        Some(x) if x >= 0.0095 => format!("{x:.2}"),
+        Some(x) if (0.0095..100.0).contains(&x) => format!("{x:.2}"),
         Some(x) => format!("{x:.0e}"),
     }
 }
@@ -457,7 +457,11 @@ fn execution_table(reports: &[Vec<Report>]) -> String {
         let case = |name: &str| of_subject.iter().find(|r| r.case == name && r.refused.is_none());
         let mut row = vec![of_subject[0].method.clone(), sum(|r| r.nonfinite).to_string(), sum(|r| r.out_of_range).to_string()];
         row.push(short(case("pair").and_then(|r| r.worst_error)));
-        row.extend(TELLING.map(|name| case(name).and_then(|r| r.mse).map_or("-".to_owned(), |mse| format!("{:.4}", mse.sqrt()))));
+        row.extend(TELLING.map(|name| {
+            case(name)
+                .and_then(|r| r.mse)
+                .map_or("-".to_owned(), |mse| if mse < 100.0 { format!("{:.4}", mse.sqrt()) } else { short(Some(mse.sqrt())) })
+        }));
         row.push(short(of_subject.iter().map(|r| r.order_spread).reduce(f64::max)));
         row.push(percent(sum(|r| r.rises) as f64 / sum(|r| r.fragments).max(1) as f64));
         rows.push(row);

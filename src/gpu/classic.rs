@@ -75,12 +75,12 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
         return 1.0;
     }}
     if (f.v == p.farthest) {{
-        return exp(-others);
+        return min(exp(-others), 1.0);
     }}
     let own = oit_accumulate(f);
     let among_others = {curve}(array<f32, OIT_SUMS>({}), f.z, 0.5);
-    // NaN compares with nothing.
-    return select(exp(-0.5 * others), among_others, among_others < 1.001);
+    // Whatever rounding makes of it, between none and all of the others lie in front. NaN compares with nothing.
+    return clamp(select(exp(-0.5 * others), among_others, among_others < 1.001), min(exp(-others), 1.0), 1.0);
 }}
 ",
         others.join(", ")

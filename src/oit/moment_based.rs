@@ -140,14 +140,16 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
             let own = absorbance(alpha);
             *out = exact(v, ends, own, total).unwrap_or_else(|| {
                 let sample = Sample { z: place(v), absorbance: own };
+                // Whatever rounding makes of it, between none and all of the others lie in front.
+                let least = libm::exp(-(total - own).max(0.0));
                 let others = family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z);
                 if others.is_finite() {
-                    return others;
+                    return others.clamp(least, 1.0);
                 }
                 // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing that, all that
                 // is known of the others' absorbance in front is that it lies between none and all.
                 let with_own = family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z);
-                if with_own.is_finite() { with_own } else { libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0)) }
+                if with_own.is_finite() { with_own.clamp(least, 1.0) } else { libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0)) }
             });
         }
     }
