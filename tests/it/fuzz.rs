@@ -497,7 +497,7 @@ fn arrays_of_fragments() {
         ("offsets", npy::encode(ArrayView1::from(&offsets))),
         ("view_z", npy::encode(ArrayView1::from(&(0..n).map(|i| 1.0 + i as f32).collect::<Vec<f32>>()))),
         ("alpha", npy::encode(ArrayView1::from(&(0..n).map(|i| i as f32 / n as f32).collect::<Vec<f32>>()))),
-        ("color", npy::encode(ArrayView2::from(&vec![[0.5f32, 0.0, 1.0]; n]))),
+        ("color", npy::encode(ArrayView2::from(vec![[0.5f32, 0.0, 1.0]; n].as_slice()))),
         ("width", npy::encode(arr0(20u32).view())),
         ("height", npy::encode(arr0(1i64).view())),
         ("near", npy::encode(arr0(0.5f32).view())),
