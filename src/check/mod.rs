@@ -240,7 +240,10 @@ impl Reference {
         let in_distribution = rows.kind == RowKind::InDistribution;
         match (precision, mean) {
             // Another order of summation is no error, even where our own orders happen to agree well.
-            (Precision::F32, _) if in_distribution => (bar, mean_bar) = (bar.max(0.5 * most).min(most), most),
+            (Precision::F32, _) if in_distribution => {
+                bar = bar.max(0.5 * most).min(most);
+                mean_bar = bar;
+            }
             (Precision::F16, Some(mean)) if in_distribution => {
                 bar = bar.max(0.01 * most).min(most);
                 mean_bar = (BAR_FACTOR * ours.mean()).max(0.01 * mean).min(mean);

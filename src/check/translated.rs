@@ -97,11 +97,17 @@ pub fn spirv_val(bytes: &[u8]) -> Option<Result<(), String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::shader::weights;
-    use crate::export::translate::string_of;
+    use crate::check::interpret::{Interpreter, Value};
+    use crate::check::shader::{parse, weights};
+    use crate::export::translate::{FRAGMENTS, ROWS, string_of, with_entry_points};
     use crate::export::{Format, encode, shader::ENTRY};
+    use crate::features::FeatureSet;
+    use crate::gpu::device::{Dispatch, groups};
     use crate::model::mlp::tests::random_mlp;
+    use crate::model::{Dense, Mlp, Provenance};
     use crate::numeric::quantise::round_f16_of_f32;
+    use crate::numeric::rng::stream;
+    use rand::RngExt;
 
     #[test]
     fn halves_of_all_bits() {
@@ -145,5 +151,61 @@ mod tests {
             }
         }
         assert!(spirv_constants(b"not SPIR-V").is_err() && spirv_constants(&[]).is_err());
+    }
+
+    /// The compute shaders of the SPIR-V module, in the WGSL that it is made of, on a GPU: what the functions answer to the same numbers on the CPU, to 1e-4 (logarithms
+    /// and exponentials differ by some ulp). Control: the answers of the row before.
+    #[test]
+    fn entry_points_answer_rows_and_fragments() {
+        let Some(gpu) = crate::gpu::tests::gpu() else { return };
+        for set in FeatureSet::ALL {
+            let mut rng = stream(9, 97, set.width() as u64);
+            let mut numbers = |n: usize| (0..n).map(|_| rng.random_range(-0.7f32..0.7)).collect::<Vec<_>>();
+            let width = set.width();
+            let layers = vec![Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(), Dense::new(6, 1, numbers(6), numbers(1)).unwrap()];
+            let mlp = Mlp::new("m", set, layers, Provenance::default()).unwrap();
+            let text = String::from_utf8(encode(&mlp, Format::Wgsl).unwrap()).unwrap();
+            let module = parse(Format::Wgsl, &text).unwrap();
+            let interpreter = Interpreter::new(&module);
+            let known = matches!(set, FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8);
+            let scalars = if known { 9 } else { 5 };
+            let (n, k) = (500, set.moments());
+            // Fragments between near and far, in pixels of three: what is known is smooth in every argument.
+            let fragment = |_| {
+                let [near, far] = [rng.random_range(-0.8f32..-0.1), rng.random_range(0.1f32..0.8)];
+                let z = rng.random_range(near..far);
+                let head = if known {
+                    vec![z.exp(), z, rng.random_range(0.1..1.0), near.exp(), far.exp(), near, far, 3.0, rng.random_range(2.0..4.0)]
+                } else {
+                    (0..5).map(|_| rng.random_range(0.1f32..0.9)).collect()
+                };
+                head.into_iter().chain((0..k).map(|_| rng.random_range(-0.5f32..0.5))).collect::<Vec<f32>>()
+            };
+            let fragments: Vec<Vec<f32>> = (0..n).map(fragment).collect();
+            let expected: Vec<f32> = fragments
+                .iter()
+                .map(|row| {
+                    let mut arguments: Vec<Value<1>> = row[..scalars].iter().map(|&x| Value::Uniform(x)).collect();
+                    arguments.extend((k > 0).then(|| Value::numbers(&row[scalars..])));
+                    let answer = if known {
+                        interpreter.call("nmt_fragment_transmittance", arguments)
+                    } else {
+                        let features = interpreter.call("nmt_features", arguments).unwrap();
+                        interpreter.call(ENTRY, vec![features])
+                    };
+                    answer.unwrap().flatten().unwrap()[0]
+                })
+                .collect();
+            let rows: Vec<f32> = (0..n * width).map(|_| rng.random_range(-1.0f32..1.0)).collect();
+            let source = with_entry_points(&text, set);
+            for (entry, input, expected) in [(ROWS, rows.clone(), mlp.forward_batch::<f32>(&rows)), (FRAGMENTS, fragments.concat(), expected)] {
+                let pipeline = gpu.compute(entry, &source, entry).unwrap();
+                let (input, output) = (gpu.upload("rows", &input).unwrap(), gpu.zeros("answers", 4 * n as u64).unwrap());
+                gpu.run(entry, &[Dispatch { pipeline: &pipeline, buffers: &[&input, &output], groups: groups(n as u64) }]).unwrap();
+                let found: Vec<f32> = gpu.download(&output, n).unwrap();
+                let off = |shift: usize| (0..n).filter(|&i| !((found[i] - expected[(i + shift) % n]).abs() <= 1e-4)).count();
+                assert!(off(0) == 0 && off(1) > n / 2, "{set:?} {entry}: {} off, {} of the control", off(0), off(1));
+            }
+        }
     }
 }

@@ -51,7 +51,7 @@ enum Command {
     Generate(generate::Generate),
     /// Train a network.
     Train(train::Train),
-    /// Export a network as WGSL, GLSL, JSON and ONNX.
+    /// Export a network as WGSL, GLSL, HLSL, MSL, SPIR-V, JSON and ONNX.
     Export(export::Export),
     /// Check exports against the network.
     Check(check::Check),

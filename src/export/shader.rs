@@ -335,8 +335,9 @@ fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
         (0, _) => "Every hidden unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
         (_, 0) => format!("What was taken out cannot fire, or nothing listens to it: answers are exact for all features{bits}."),
         (_, rows) => format!(
-            "What was taken out fired on none of {rows} random rows of the training distribution. Where it would not fire, answers are exact{bits}; elsewhere \
-             they are off by what it would add."
+            "What was taken out fired on none of {rows} random rows of the training distribution: on fewer than {:.1e} of them, at 95 % confidence. Where it \
+             would not fire, answers are exact{bits}; elsewhere they are off by what it would add.",
+            3.0 / rows as f64
         ),
     };
     [format!("{PRUNED}{}.", pruned.to_text()), region]

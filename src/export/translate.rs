@@ -68,8 +68,8 @@ fn fragment_arguments(set: FeatureSet) -> (Vec<&'static str>, String) {
     (names.to_vec(), call)
 }
 
-/// The WGSL with two compute shaders behind it.
-fn with_entry_points(source: &str, set: FeatureSet) -> String {
+/// The WGSL with two compute shaders behind it, [`ROWS`] and [`FRAGMENTS`]: what the SPIR-V module is made of.
+pub fn with_entry_points(source: &str, set: FeatureSet) -> String {
     let (names, call) = fragment_arguments(set);
     let (width, arguments) = (set.width(), names.len() + set.moments());
     let loads = |base: usize, n: usize| (base..base + n).map(|i| format!("nmt_in[first + {i}u]")).collect::<Vec<_>>().join(", ");

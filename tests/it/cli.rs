@@ -285,12 +285,13 @@ fn pruned_exports_say_so() {
     let at = Workplace::new();
     let model = at.model();
     nmt(&["export", &model, "--out", &at.path("e"), "--format", "wgsl,json", "--prune=0"]).code(2).stderr(contains("no row"));
-    nmt(&["export", &model, "--out", &at.path("e"), "--format", "wgsl,json,spirv", "--prune=200000"])
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "wgsl,json,spirv", "--prune=1000000"])
         .success()
         .stderr(contains("multiply-adds are left"));
     let text = std::fs::read_to_string(at.path("e/tiny.wgsl")).unwrap();
     assert!(text.contains("// Pruned: ") && text.contains("; 92 multiply-adds before"), "{text}");
-    nmt(&["check", &model, "--exports", &at.path("e"), "--format", "wgsl,json,spirv"]).success().stdout(contains("would fire on"));
+    // A GPU is given so many more rows that it may well meet a unit that fires once in a million.
+    nmt(&["check", &model, "--exports", &at.path("e"), "--format", "json,spirv"]).success().stdout(contains("would fire on"));
 }
 
 /// An export in which one digit was changed by hand does not pass.
