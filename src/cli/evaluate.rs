@@ -113,6 +113,8 @@ impl Evaluate {
         let methods = self.methods()?;
         let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
 
+        // Networks of --model come last; --skip is theirs alone.
+        let with_skip: HashSet<String> = methods[methods.len() - self.model.len()..].iter().map(|(method, _)| method.name()).collect();
         let names = scene_names(&self.fragments);
         let mut results = Vec::new();
         let mut refused = false;
@@ -186,7 +188,8 @@ impl Evaluate {
         }
         let skip = Skip::from(self.skip);
         for result in results.iter_mut().filter_map(Value::as_object_mut) {
-            if result.get("method").and_then(Value::as_str).is_some_and(|name| name.starts_with("neural:")) {
+            let method = result.get("method").and_then(Value::as_str);
+            if method.is_some_and(|name| with_skip.contains(name)) {
                 result.insert("skip".to_owned(), json!(skip));
             }
         }
