@@ -17,7 +17,6 @@ pub use summary::Summary;
 
 use crate::dataset::DatasetError;
 use crate::model::ShapeError;
-use crate::train::BackendError;
 use std::time::{Duration, Instant};
 
 /// Most calls of one repetition: a call that seems to take no time at all must not be made for ever.
@@ -77,9 +76,6 @@ pub enum BenchError {
     /// Pixels could not be made.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// A backend cannot be had.
-    #[error(transparent)]
-    Backend(#[from] BackendError),
     /// Training failed.
     #[error("{0}")]
     Train(String),

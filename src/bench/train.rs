@@ -58,7 +58,7 @@ pub fn train(
 
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     for backend in backends {
-        let mut optimiser = backend.optimiser(network.feature_set(), &network.shapes(), &network.parameters(), &config)?;
+        let mut optimiser = backend.optimiser(network.feature_set(), &network.shapes(), &network.parameters(), &config);
         let mut batches = batches.iter().cycle();
         let learning_rate = config.learning_rate;
         subjects.push(Subject::new(move || {
@@ -140,7 +140,7 @@ pub fn stream_epochs(
     fixed.dataset.refresh = 0.0;
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     for manifest in [&fixed, manifest] {
-        let mut optimiser = backend.optimiser(set, &shapes, &initial::glorot(&shapes, seed), config)?;
+        let mut optimiser = backend.optimiser(set, &shapes, &initial::glorot(&shapes, seed), config);
         let mut feed = Feed::new(&dataset.training, manifest, seed, config.batch, 0).map_err(failed)?;
         let (mut epoch, shapes) = (0, &shapes);
         subjects.push(Subject::new(move || {

@@ -549,8 +549,7 @@ fn check_hlsl(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mu
         Ok(slangc) => slangc,
         Err(why) => {
             findings.push(Finding::skipped(format, SLANGC, "compiles", why.clone()));
-            findings.push(Finding::skipped(format, SLANGC, QUESTION, why.clone()));
-            return findings.push(Finding::skipped(format, "gpu", QUESTION, format!("slangc makes the WGSL that runs there, and was {why}")));
+            return findings.push(Finding::skipped(format, SLANGC, QUESTION, format!("on the CPU and on a GPU: {why}")));
         }
     };
     let wgsl = match hlsl::to_wgsl(&slangc, &whole, hlsl::ROWS) {

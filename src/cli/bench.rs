@@ -279,7 +279,7 @@ impl BenchTrain {
         let default: &[BackendName] =
             if self.stream.is_some() { &[BackendName::Fused] } else { &[BackendName::Fused, BackendName::Flex, BackendName::Ndarray] };
         let names = if self.backend.is_empty() { default } else { &self.backend };
-        let backends: Vec<Backend> = names.iter().map(|&name| name.try_into()).collect::<Result<_, _>>().context("--backend")?;
+        let backends: Vec<Backend> = names.iter().map(|&name| name.into()).collect();
         match &self.stream {
             Some(config) => self.streamed(config, &backends, ui),
             None => self.in_memory(&backends, ui),

@@ -93,6 +93,8 @@ struct Asked {
     method: Box<dyn Method>,
     /// Whether it was asked for by its own name.
     demanded: bool,
+    /// Whether `--skip` is for it: a network of `--model`.
+    skips: bool,
     /// What the GPU runs; none where there is no shader for it.
     shader: Option<Result<MethodShader, GpuError>>,
 }
@@ -113,8 +115,7 @@ impl Evaluate {
         let methods = self.methods()?;
         let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
 
-        // Networks of --model come last; --skip is theirs alone.
-        let with_skip: HashSet<String> = methods[methods.len() - self.model.len()..].iter().map(|(method, _)| method.name()).collect();
+        let with_skip: HashSet<String> = methods.iter().filter(|asked| asked.skips).map(|asked| asked.method.name()).collect();
         let names = scene_names(&self.fragments);
         let mut results = Vec::new();
         let mut refused = false;
@@ -137,7 +138,7 @@ impl Evaluate {
             let progress = ui.progress("evaluate", methods.len() as u64);
             let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-            for (index, Asked { method, demanded, shader }) in methods.iter().enumerate() {
+            for (index, Asked { method, demanded, shader, .. }) in methods.iter().enumerate() {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
                 let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
@@ -221,17 +222,17 @@ impl Evaluate {
                         Some(path) => Some(shader(Path::new(path))?),
                         None => MethodShader::classic(&name).map(Ok),
                     };
-                    methods.push(Asked { method, demanded, shader });
+                    methods.push(Asked { method, demanded, skips: false, shader });
                 }
             }
         }
         for path in &self.model {
             let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
-            methods.push(Asked { method, demanded: true, shader: self.gpu.then(|| shader(path)).transpose()? });
+            methods.push(Asked { method, demanded: true, skips: true, shader: self.gpu.then(|| shader(path)).transpose()? });
             let after = Neural::new(file::load(path)?).with_skip(self.skip.into()).with_frame(MomentFrame::Pixel);
             // A network whose moments are not of logarithmic depth has no other frame.
             if self.prepass && after.frame() == MomentFrame::Pixel {
-                methods.push(Asked { method: Box::new(after), demanded: true, shader: None });
+                methods.push(Asked { method: Box::new(after), demanded: true, skips: true, shader: None });
             }
         }
         Ok(methods)

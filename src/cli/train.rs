@@ -6,9 +6,10 @@ use super::{Verdict, generate, interrupt, keep_inputs};
 use crate::dataset::{Dataset, file as dataset_file};
 use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
+use crate::train::burn::Engine;
 use crate::train::checkpoint::{Losses, path_for};
 use crate::train::schedule::Job;
-use crate::train::{Backend, BackendError, Outcome, train};
+use crate::train::{Backend, Outcome, train};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -54,30 +55,21 @@ pub enum BackendName {
     Flex,
     /// burn-ndarray.
     Ndarray,
-    /// burn on a GPU through wgpu, where the program was built with --features wgpu.
-    Wgpu,
-    /// burn on a CUDA device, where the program was built with --features cuda.
-    Cuda,
 }
 
-impl TryFrom<BackendName> for Backend {
-    type Error = BackendError;
-
-    fn try_from(name: BackendName) -> Result<Self, BackendError> {
-        Self::named(match name {
-            BackendName::Fused => "fused",
-            BackendName::Flex => "flex",
-            BackendName::Ndarray => "ndarray",
-            BackendName::Wgpu => "wgpu",
-            BackendName::Cuda => "cuda",
-        })
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Self {
+        match name {
+            BackendName::Fused => Self::Fused,
+            BackendName::Flex => Self::Burn(Engine::Flex),
+            BackendName::Ndarray => Self::Burn(Engine::Ndarray),
+        }
     }
 }
 
 impl TrainOptions {
-    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused before anything is made.
+    /// Reads the configuration with the number of epochs that is asked for.
     pub fn configure(&self, path: &Path) -> anyhow::Result<Config> {
-        Backend::try_from(self.backend).context("--backend")?;
         let mut config = Config::load(path)?;
         if let Some(epochs) = self.epochs {
             config.train.epochs = epochs;
@@ -199,7 +191,7 @@ pub fn fit(config: &Config, dataset: &Dataset, options: &TrainOptions, checkpoin
         name: &config.name,
         config: &config.train,
         seed: config.seed,
-        backend: options.backend.try_into()?,
+        backend: options.backend.into(),
         checkpoint,
         resume: options.resume,
         provenance,

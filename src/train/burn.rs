@@ -1,6 +1,6 @@
 //! burn's autodiff and Adam, on any of its backends: the independent opinion on what our own kernel computes.
 
-use super::{AdamMoments, BackendError, Optimiser, TrainConfig, initial};
+use super::{AdamMoments, Optimiser, TrainConfig, initial};
 use crate::dataset::Batch;
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer as _};
@@ -17,19 +17,13 @@ pub struct BurnOptimiser {
     states: Vec<Option<AdamState<2>>>,
 }
 
-/// burn's backends that this program was built with.
+/// burn's backends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Engine {
     /// burn-flex, on the CPU.
     Flex,
     /// burn-ndarray, on the CPU.
     Ndarray,
-    /// burn-wgpu, on the GPU that wgpu likes best.
-    #[cfg(feature = "wgpu")]
-    Wgpu,
-    /// burn-cuda, on the first CUDA device.
-    #[cfg(feature = "cuda")]
-    Cuda,
 }
 
 impl Engine {
@@ -38,44 +32,28 @@ impl Engine {
         match self {
             Self::Flex => "flex",
             Self::Ndarray => "ndarray",
-            #[cfg(feature = "wgpu")]
-            Self::Wgpu => "wgpu",
-            #[cfg(feature = "cuda")]
-            Self::Cuda => "cuda",
         }
     }
 
     /// Where it computes.
-    fn device(self) -> Result<Device, BackendError> {
+    fn device(self) -> Device {
         match self {
-            Self::Flex => Ok(Device::flex()),
+            Self::Flex => Device::flex(),
             // Deprecated by burn 0.22 in favour of flex; kept because it was asked for by name.
             #[allow(deprecated)]
-            Self::Ndarray => Ok(Device::ndarray()),
-            #[cfg(feature = "wgpu")]
-            Self::Wgpu => {
-                // A machine without a GPU says so here; later it would be a panic. The runtime can be made once only.
-                static DEVICE: std::sync::OnceLock<Result<Device, String>> = std::sync::OnceLock::new();
-                let made = DEVICE.get_or_init(|| Device::wgpu_options().init().map_err(|e| e.to_string()));
-                made.clone().map_err(|reason| BackendError::NoDevice { name: self.name(), reason })
-            }
-            #[cfg(feature = "cuda")]
-            Self::Cuda => Ok(Device::cuda(0)),
+            Self::Ndarray => Device::ndarray(),
         }
     }
 }
 
 impl BurnOptimiser {
     /// An optimiser at the given weights.
-    ///
-    /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that the engine computes on.
-    pub fn new(engine: Engine, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Result<Self, BackendError> {
+    pub fn new(engine: Engine, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
         let adam = AdamConfig::new().with_beta_1(config.beta1 as f32).with_beta_2(config.beta2 as f32).with_epsilon(config.epsilon as f32).build();
-        let (answer, device) = (set.answer(), engine.device()?);
+        let (answer, device) = (set.answer(), engine.device());
         let mut optimiser = Self { answer, shapes: shapes.to_vec(), device, adam, tensors: Vec::new(), states: Vec::new() };
         optimiser.restore(parameters, &AdamMoments::default());
-        Ok(optimiser)
+        optimiser
     }
 
     /// `[rows, columns]` of every parameter tensor.

@@ -153,24 +153,11 @@ pub enum BackendError {
     /// There is none of that name.
     #[error("backend '{0}': there is none of that name; there are {list}", list = Backend::NAMES.join(", "))]
     Unknown(String),
-    /// It is left out of this program.
-    #[error(
-        "backend '{0}': this program was built without it; build it with 'cargo build --release --features {0}', or choose fused, which needs no GPU"
-    )]
-    NotBuilt(&'static str),
-    /// There is nothing to compute on.
-    #[error("backend '{name}': {reason}; choose fused, which needs no GPU")]
-    NoDevice {
-        /// The backend.
-        name: &'static str,
-        /// What it says.
-        reason: String,
-    },
 }
 
 impl Backend {
-    /// Names of all backends, of those too that this program may have been built without.
-    pub const NAMES: [&str; 5] = ["fused", "flex", "ndarray", "wgpu", "cuda"];
+    /// Names of all backends.
+    pub const NAMES: [&str; 3] = ["fused", "flex", "ndarray"];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -183,38 +170,22 @@ impl Backend {
     /// The backend of a name.
     ///
     /// # Errors
-    /// [`BackendError::Unknown`]; [`BackendError::NotBuilt`] where the cargo feature of that name was off.
+    /// [`BackendError::Unknown`].
     pub fn named(name: &str) -> Result<Self, BackendError> {
         match name {
             "fused" => Ok(Self::Fused),
             "flex" => Ok(Self::Burn(Engine::Flex)),
             "ndarray" => Ok(Self::Burn(Engine::Ndarray)),
-            #[cfg(feature = "wgpu")]
-            "wgpu" => Ok(Self::Burn(Engine::Wgpu)),
-            #[cfg(feature = "cuda")]
-            "cuda" => Ok(Self::Burn(Engine::Cuda)),
-            _ => Err(match Self::NAMES.into_iter().find(|known| *known == name) {
-                Some(known) => BackendError::NotBuilt(known),
-                None => BackendError::Unknown(name.to_owned()),
-            }),
+            _ => Err(BackendError::Unknown(name.to_owned())),
         }
     }
 
     /// An optimiser of this kind, at the given weights and with fresh moments.
-    ///
-    /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on.
-    pub fn optimiser(
-        self,
-        set: FeatureSet,
-        shapes: &[(usize, usize)],
-        parameters: &[f32],
-        config: &TrainConfig,
-    ) -> Result<Box<dyn Optimiser>, BackendError> {
-        Ok(match self {
+    pub fn optimiser(self, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Box<dyn Optimiser> {
+        match self {
             Self::Fused => Box::new(fused::Fused::new(set, shapes, parameters, config)),
-            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)?),
-        })
+            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)),
+        }
     }
 }
 
@@ -287,7 +258,7 @@ mod tests {
             ("fused, baseline", fused(Level::baseline())),
         ];
         for engine in [Engine::Flex, Engine::Ndarray] {
-            all.push((engine.name(), Backend::Burn(engine).optimiser(set, shapes, parameters, &config()).unwrap()));
+            all.push((engine.name(), Backend::Burn(engine).optimiser(set, shapes, parameters, &config())));
         }
         all
     }
@@ -387,7 +358,7 @@ mod tests {
                 assert!(off(&shapes, &gradient, &exact) < 1e-5, "{name} {hidden:?}: {}", off(&shapes, &gradient, &exact));
             }
             let half = Batch { order: &order[..150], ..batch };
-            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap().gradient(half);
+            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).gradient(half);
             assert!(off(&shapes, &other, &exact) > 1e-5, "the control passed");
         }
     }
@@ -400,7 +371,7 @@ mod tests {
         let blocks = blocks(FeatureSet::Recentred, 4096);
         let order = all_blocks(&blocks);
         let path = |backend: Backend, rate: f64| -> Vec<f64> {
-            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config()).unwrap();
+            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config());
             (0..100).map(|step| optimiser.step(Batch { blocks: &blocks, order: &order[16 * (step % 16)..][..16] }, rate)).collect()
         };
         let far = |a: &[f64], b: &[f64]| {
@@ -420,7 +391,7 @@ mod tests {
         let order = all_blocks(&blocks);
         let [one, three] = [1, 3].map(|threads| {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
-                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config()).unwrap();
+                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config());
                 for _ in 0..5 {
                     optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2);
                 }
@@ -448,7 +419,7 @@ mod tests {
             };
             let blocks = Blocks::of(&rows, &(0..n as u32).collect::<Vec<_>>());
             let order = all_blocks(&blocks);
-            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap();
+            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config());
             for _ in 0..50 {
                 assert!(optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2).is_finite());
             }
@@ -496,22 +467,15 @@ mod tests {
         }
     }
 
-    /// Every name is known: of what is built in it gives the backend, which gives it back, in files too; of what is not, how to build it.
+    /// Every name gives a backend, which gives it back, in files too.
     #[test]
     fn names_of_backends() {
         for name in Backend::NAMES {
-            match Backend::named(name) {
-                Ok(backend) => {
-                    assert_eq!((backend.name(), String::from(backend).as_str()), (name, name));
-                    assert_eq!(serde_json::from_value::<Backend>(serde_json::to_value(backend).unwrap()).unwrap(), backend);
-                }
-                Err(error) => {
-                    assert!(name == "wgpu" && !cfg!(feature = "wgpu") || name == "cuda" && !cfg!(feature = "cuda"), "{name}");
-                    assert!(error.to_string().contains(&format!("--features {name}")), "{error}");
-                }
-            }
+            let backend = Backend::named(name).unwrap();
+            assert_eq!((backend.name(), String::from(backend).as_str()), (name, name));
+            assert_eq!(serde_json::from_value::<Backend>(serde_json::to_value(backend).unwrap()).unwrap(), backend);
         }
-        assert!(Backend::named("jax").unwrap_err().to_string().ends_with("there are fused, flex, ndarray, wgpu, cuda"));
+        assert!(Backend::named("jax").unwrap_err().to_string().ends_with("there are fused, flex, ndarray"));
     }
 
     #[test]
