@@ -832,7 +832,7 @@ mod tests {
                 let (a, b) = (0.1 + 0.003 * (pixel % 1000) as f64, 0.1 + 0.01 * (pixel % 300) as f64);
                 let shape = Shape::Beta { a: LogUniform::new(range(a, a)), b: LogUniform::new(range(b, b)) };
                 shape.draw(&mut many, n, &mut scratch);
-                (one.unit(), one.unit());
+                let _ = (one.unit(), one.unit());
                 (0..n)
                     .map(|_| {
                         let (x, y) = (plain.gamma(&mut one, a), plain.gamma(&mut one, b));
