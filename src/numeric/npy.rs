@@ -72,8 +72,21 @@ impl Element for i64 {
     const NAME: &'static str = "int64";
 }
 
-/// Decodes the bytes of a `.npy` file, in any memory order.
-fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, ViewNpyError> {
+/// Whether a header is as long as it says. The reader would take memory for it first and find out afterwards.
+fn header_is_whole(bytes: &[u8]) -> bool {
+    match bytes {
+        // A 16-bit length in version 1 of the format, 32 bits later.
+        [_, _, _, _, _, _, 1, _, a, b, rest @ ..] => usize::from(u16::from_le_bytes([*a, *b])) <= rest.len(),
+        [_, _, _, _, _, _, _, _, a, b, c, d, rest @ ..] => u64::from(u32::from_le_bytes([*a, *b, *c, *d])) <= rest.len() as u64,
+        _ => false,
+    }
+}
+
+/// Decodes the bytes of a `.npy` file, in any memory order; what is wrong otherwise.
+fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, String> {
+    if !header_is_whole(bytes) {
+        return Err("the file ends within its header; it is truncated, damaged or of another kind".to_owned());
+    }
     match ArrayViewD::<T>::view_npy(bytes) {
         Ok(view) => Ok(view.to_owned()),
         Err(ViewNpyError::MisalignedData) => {
@@ -87,19 +100,14 @@ fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, ViewNpyError> {
                     Err(error) => last = error,
                 }
             }
-            Err(last)
+            Err(last.to_string())
         }
-        Err(error) => Err(error),
+        Err(error) => Err(error.to_string()),
     }
 }
 
-fn array_error<T: Element>(path: &Path, name: &str, error: &ViewNpyError) -> NpyError {
-    NpyError::Array {
-        path: path.to_owned(),
-        name: name.to_owned(),
-        reason: error.to_string(),
-        expected: format!("a whole NumPy array of {}", T::NAME),
-    }
+fn array_error<T: Element>(path: &Path, name: &str, reason: String) -> NpyError {
+    NpyError::Array { path: path.to_owned(), name: name.to_owned(), reason, expected: format!("a whole NumPy array of {}", T::NAME) }
 }
 
 /// Reads one `.npy` file.
@@ -108,7 +116,7 @@ fn array_error<T: Element>(path: &Path, name: &str, error: &ViewNpyError) -> Npy
 /// [`NpyError`] names the file and what is wrong with it.
 pub fn read_npy<T: Element>(path: &Path) -> Result<ArrayD<T>, NpyError> {
     let bytes = super::file::read(path)?;
-    decode(&bytes).map_err(|e| array_error::<T>(path, "array", &e))
+    decode(&bytes).map_err(|e| array_error::<T>(path, "array", e))
 }
 
 /// Writes one `.npy` file.
@@ -172,7 +180,7 @@ impl Npz {
     /// [`NpyError::Array`] where it is there and not of element type `T`.
     pub fn optional<T: Element>(&self, name: &str) -> Result<Option<ArrayD<T>>, NpyError> {
         let Some(bytes) = self.entries.get(name) else { return Ok(None) };
-        decode(bytes).map(Some).map_err(|e| array_error::<T>(&self.path, name, &e))
+        decode(bytes).map(Some).map_err(|e| array_error::<T>(&self.path, name, e))
     }
 
     /// An array that must be there.
@@ -272,6 +280,20 @@ mod tests {
             bytes.extend(b"\n\0\0\0\0");
             std::fs::write(&path, &bytes).unwrap();
             assert!(read_npy::<f32>(&path).is_err(), "{shape}");
+        }
+    }
+
+    /// A header that promises 4 GiB of itself, in every version of the format. Control: the same with its true length is read.
+    #[test]
+    fn absurd_headers_allocate_nothing() {
+        let good = encode(arr1(&[1.0f32, 2.0]).view());
+        assert!(header_is_whole(&good) && decode::<f32>(&good).is_ok());
+        let mut long = good.clone();
+        long[8..10].fill(0xff);
+        let mut newer = good.clone();
+        newer[6] = 3;
+        for bytes in [&long[..], &newer[..], &good[..9], &good[..8], &good[..0], &good[..40]] {
+            assert!(!header_is_whole(bytes) && decode::<f32>(bytes).unwrap_err().contains("within its header"));
         }
     }
 }
