@@ -297,7 +297,7 @@ impl Chart {
             }
             out += "</g>\n";
         }
-        self.line_labels(&x, &y, x_end, &mut out);
+        self.line_labels(&x, &y, x_end, &mut taken, &mut out);
         self.point_labels(&x, &y, taken, &mut out);
         out += "</svg>\n";
         Some(out)
@@ -330,7 +330,7 @@ impl Chart {
     }
 
     /// Names of lines at their right ends, moved apart where they would meet.
-    fn line_labels(&self, x: &Ruler, y: &Ruler, x_end: f64, out: &mut String) {
+    fn line_labels(&self, x: &Ruler, y: &Ruler, x_end: f64, taken: &mut Vec<Box>, out: &mut String) {
         let mut labels: Vec<(f64, f64, f64, &Series)> = Vec::new();
         for series in self.series.iter().filter(|s| s.is_line() && !s.name.is_empty()) {
             if let Some(last) = series.drawn().last() {
@@ -354,6 +354,7 @@ impl Chart {
         for (px, py, label_y, series) in labels {
             let color = series.color % COLORS;
             let at = x_end + 16.0;
+            taken.push(Box { x: at, y: label_y - 0.5 * LINE, width: text_width(&shortened(&series.name)), height: LINE });
             *out += &format!(
                 "<g class=\"s{color}\"><polyline class=\"leader\" points=\"{px:.1},{py:.1} {x_end:.1},{py:.1} {:.1},{label_y:.1}\"/>",
                 at - 4.0
