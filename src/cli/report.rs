@@ -15,7 +15,7 @@ pub struct Report {
     /// Page to write, instead of report.html in the folder.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Most room that pictures may take in the page [MiB].
+    /// Most room that pictures may take in the page \[MiB\].
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u64).range(..=4096))]
     embed_mib: u64,
     /// Replace what is there.

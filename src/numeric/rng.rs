@@ -76,7 +76,7 @@ impl Stream {
         self.at += words;
     }
 
-    /// The next number of [`unit`].
+    /// The next number of [`unit()`].
     #[inline(always)]
     pub fn unit(&mut self) -> f64 {
         let &[low, high, ..] = self.peek();
@@ -84,7 +84,7 @@ impl Stream {
         unit([low, high])
     }
 
-    /// As many numbers of [`unit`] as there is room for.
+    /// As many numbers of [`unit()`] as there is room for.
     pub fn units(&mut self, mut out: &mut [f64]) {
         while !out.is_empty() {
             let pairs = self.words[self.at..].as_chunks::<2>().0;
