@@ -323,7 +323,7 @@ impl Setting<'_> {
     pub fn on_gpu(&self, gpu: &Gpu, contenders: &[Contender], formats: &[Format], progress: &dyn Fn(u64)) -> Result<Table, MethodsError> {
         self.check()?;
         let adapter = gpu.name();
-        let clock = if gpu.has_timestamps() { Clock::Device } else { Clock::Wall };
+        let clock = if gpu.stamps() { Clock::Device } else { Clock::Wall };
         let refused = |method: &str| {
             let method = method.to_owned();
             move |source| MethodsError::Gpu { method, source }
