@@ -352,7 +352,7 @@ impl Setting<'_> {
             let mut cost = self.cost(&given, &adapter, clock)?;
             (cost.network, cost.format, cost.arithmetic) = (about.network, about.format, about.arithmetic);
             let timed = move || {
-                let s = passes.time(gpu).map_err(refused(&shader.name))?;
+                let s = passes.run(gpu).map_err(refused(&shader.name))?;
                 Ok((s.accumulate + s.weights, Some([s.accumulate, s.weights])))
             };
             entrants.push(Entrant { cost, timed: Box::new(timed) });

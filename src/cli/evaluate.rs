@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, load};
+use super::scene::{SceneOptions, ViewOptions, load};
 use super::ui::{Ui, report, table};
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
@@ -15,8 +15,8 @@ use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
-use crate::oit::{Context, Method, all_names, parse};
-use crate::pixel::{CameraPlanes, FragmentList};
+use crate::oit::{Method, all_names, parse};
+use crate::pixel::FragmentList;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -45,18 +45,8 @@ pub struct Evaluate {
     out: PathBuf,
     #[command(flatten)]
     options: SceneOptions,
-    /// Near plane of the camera, instead of the lists' own [scene units].
-    #[arg(long, requires = "far")]
-    near: Option<f32>,
-    /// Far plane of the camera, instead of the lists' own [scene units].
-    #[arg(long, requires = "near")]
-    far: Option<f32>,
-    /// View depths that moment depth -1 and 1 stand for, instead of each list's extremes [scene units].
-    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
-    depth_range: Option<Vec<f32>>,
-    /// Linear colour behind everything.
-    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
-    background: Vec<f64>,
+    #[command(flatten)]
+    view: ViewOptions,
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]
     gpu: bool,
@@ -106,12 +96,8 @@ impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         may_write(&self.out.join(RESULTS), replace)?;
-        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        let context = Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) };
-        let background = [self.background[0], self.background[1], self.background[2]];
-        if let Some(wrong) = background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-            bail!("--background {wrong}: every channel must lie in [0, 1]");
-        }
+        let context = self.view.context()?;
+        let background = self.view.background()?;
         let methods = self.methods()?;
         let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
 

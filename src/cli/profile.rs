@@ -1,14 +1,12 @@
 //! `nmt profile`
 
-use super::scene::{SceneOptions, load};
+use super::scene::{SceneOptions, ViewOptions, load};
 use super::ui::{Ui, table};
 use super::{Verdict, interrupt, keep_inputs};
 use crate::features::MomentDepthKind;
 use crate::model::{Mlp, file};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
-use crate::oit::Context;
 use crate::oit::neural::Skip;
-use crate::pixel::CameraPlanes;
 use crate::profile::facts::Histogram;
 use crate::profile::simplify::{Report, Simplified, simplify};
 use crate::profile::specialise::{Plan, Specialised, specialise};
@@ -41,18 +39,8 @@ pub struct Profile {
     out: Option<PathBuf>,
     #[command(flatten)]
     options: SceneOptions,
-    /// Near plane of the camera, instead of the list's own [scene units].
-    #[arg(long, requires = "far")]
-    near: Option<f32>,
-    /// Far plane of the camera, instead of the list's own [scene units].
-    #[arg(long, requires = "near")]
-    far: Option<f32>,
-    /// View depths that moment depth -1 and 1 stand for, instead of the list's extremes [scene units].
-    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
-    depth_range: Option<Vec<f32>>,
-    /// Linear colour behind everything.
-    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
-    background: Vec<f64>,
+    #[command(flatten)]
+    view: ViewOptions,
     /// Repetitions of each timing; what is compared takes turns in each.
     #[arg(long, value_name = "N", default_value_t = 11)]
     repeat: usize,
@@ -64,9 +52,7 @@ pub struct Profile {
 impl Profile {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
-        if let Some(wrong) = self.background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-            bail!("--background {wrong}: every channel must lie in [0, 1]");
-        }
+        let background = self.view.background()?;
         if let Some(target) = self.target_error.filter(|t| !(*t > 0.0 && t.is_finite())) {
             bail!("--target-error {target}: must be a number greater than 0");
         }
@@ -81,10 +67,9 @@ impl Profile {
                 may_write(&folder.join(name), replace)?;
             }
         }
-        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        let context = Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) };
+        let context = self.view.context()?;
         let list = load(&self.fragments, &self.options)?;
-        let scene = Scene::new(&list, context, [self.background[0], self.background[1], self.background[2]]);
+        let scene = Scene::new(&list, context, background);
         match (&self.specialise, &self.simplify) {
             (Some(model), _) => self.specialise(ui, &scene, model, replace),
             (None, Some(model)) => self.simplify(ui, &scene, model, replace),
@@ -449,7 +434,7 @@ mod tests {
         for name in ["teapots", "smoke"] {
             let options = crate::scene::Options { size: Some((48, 48)), seed: None };
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
-            let scene = Scene::new(&list, Context::default(), [1.0; 3]);
+            let scene = Scene::new(&list, crate::oit::Context::default(), [1.0; 3]);
             let facts = facts(&scene).unwrap();
             let networks: Vec<_> = shipped().unwrap().iter().take(2).map(|m| look_into(&scene, m).unwrap()).collect();
             let recommendation = recommend(&facts, &networks, None);

@@ -3,7 +3,8 @@
 use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::numeric::file::{Replace, may_write};
-use crate::pixel::FragmentList;
+use crate::oit::Context;
+use crate::pixel::{CameraPlanes, FragmentList};
 use crate::scene::{self, BUILT_IN, Options, SceneError, exr, npz};
 use anyhow::{Context as _, bail};
 use clap::Args;
@@ -34,6 +35,40 @@ pub struct SceneOptions {
     /// Seed of a built-in scene.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+}
+
+/// How fragments are looked at: the camera that saw them, the range of depth, and what lies behind.
+#[derive(Args)]
+pub struct ViewOptions {
+    /// Near plane of the camera, instead of the list's own [scene units].
+    #[arg(long, requires = "far")]
+    near: Option<f32>,
+    /// Far plane of the camera, instead of the list's own [scene units].
+    #[arg(long, requires = "near")]
+    far: Option<f32>,
+    /// View depths that moment depth -1 and 1 stand for, instead of the list's extremes [scene units].
+    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
+    depth_range: Option<Vec<f32>>,
+    /// Linear colour behind everything.
+    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
+    background: Vec<f64>,
+}
+
+impl ViewOptions {
+    /// What methods must know besides the fragments.
+    pub fn context(&self) -> anyhow::Result<Context> {
+        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
+        Ok(Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) })
+    }
+
+    /// The colour, every channel of which lies in [0, 1].
+    pub fn background(&self) -> anyhow::Result<[f64; 3]> {
+        let background = [self.background[0], self.background[1], self.background[2]];
+        match background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
+            Some(wrong) => bail!("--background {wrong}: every channel must lie in [0, 1]"),
+            None => Ok(background),
+        }
+    }
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {

@@ -315,8 +315,8 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Refused`].
-    pub fn run(&self, label: &str, dispatches: &[Dispatch<'_>]) -> Result<Option<Vec<f64>>, GpuError> {
-        let seconds = self.timed(label, dispatches.len(), |index, encoder, stamps| {
+    pub fn run(&self, label: &str, dispatches: &[Dispatch<'_>]) -> Result<Vec<f64>, GpuError> {
+        self.timed(label, dispatches.len(), |index, encoder, stamps| {
             let dispatch = &dispatches[index];
             let entries: Vec<wgpu::BindGroupEntry<'_>> = dispatch
                 .buffers
@@ -333,8 +333,7 @@ impl Gpu {
             pass.set_pipeline(dispatch.pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
-        })?;
-        Ok(Some(seconds))
+        })
     }
 
     /// Whether [`Self::timed`] reads timestamps of the device, rather than the clock.

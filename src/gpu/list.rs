@@ -3,7 +3,6 @@
 use super::device::{Dispatch, Gpu, GpuError, groups};
 use super::method::MethodShader;
 use crate::pixel::{CameraPlanes, FragmentList};
-use std::time::Instant;
 
 /// A fragment list on the device.
 #[derive(Debug)]
@@ -156,33 +155,14 @@ impl<'a> Passes<'a> {
         })
     }
 
-    /// Runs both passes and waits for them.
+    /// Runs both passes, waits for them, and says how long each took; see [`Gpu::timed`].
     ///
     /// # Errors
     /// [`GpuError::Refused`].
-    pub fn run(&self, gpu: &Gpu) -> Result<Option<PassSeconds>, GpuError> {
+    pub fn run(&self, gpu: &Gpu) -> Result<PassSeconds, GpuError> {
         let (first, second) = (self.accumulate_buffers(), self.weigh_buffers());
-        let dispatches = [self.accumulate_dispatch(&first), self.weigh_dispatch(&second)];
-        Ok(gpu.run(&self.name, &dispatches)?.map(|s| PassSeconds { accumulate: s[0], weights: s[1] }))
-    }
-
-    /// Runs both passes and says how long each took: by the device's clock where it has one, else by the wall's, each pass submitted and waited for by itself.
-    ///
-    /// # Errors
-    /// [`GpuError::Refused`].
-    pub fn time(&self, gpu: &Gpu) -> Result<PassSeconds, GpuError> {
-        if let Some(seconds) = self.run(gpu)? {
-            return Ok(seconds);
-        }
-        let wall = |dispatch: Dispatch<'_>| {
-            let start = Instant::now();
-            gpu.run(&self.name, &[dispatch])?;
-            Ok(start.elapsed().as_secs_f64())
-        };
-        Ok(PassSeconds {
-            accumulate: wall(self.accumulate_dispatch(&self.accumulate_buffers()))?,
-            weights: wall(self.weigh_dispatch(&self.weigh_buffers()))?,
-        })
+        let seconds = gpu.run(&self.name, &[self.accumulate_dispatch(&first), self.weigh_dispatch(&second)])?;
+        Ok(PassSeconds { accumulate: seconds[0], weights: seconds[1] })
     }
 
     fn accumulate_buffers(&self) -> Vec<&wgpu::Buffer> {

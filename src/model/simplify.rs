@@ -114,7 +114,7 @@ impl Activity {
 }
 
 /// Hidden layers' values for a row, in f32, in the order of the reference forward pass, with `visit(layer, values)` after each.
-fn walk(mlp: &Mlp, row: &[f32], mut visit: impl FnMut(usize, &[f32])) {
+pub fn walk(mlp: &Mlp, row: &[f32], mut visit: impl FnMut(usize, &[f32])) {
     let mut x = row.to_vec();
     let hidden = &mlp.layers()[..mlp.layers().len() - 1];
     for (index, dense) in hidden.iter().enumerate() {

@@ -4,9 +4,9 @@ use super::{ProfileError, Scene};
 use crate::dataset::{Rows, build::rows};
 use crate::features::{Extractor, FeatureSet, Storage};
 use crate::model::Mlp;
+use crate::model::simplify::activity;
 use crate::oit::Method;
 use crate::oit::neural::Neural;
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// A network on a scene.
@@ -126,7 +126,7 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
         let (min, max) = of.fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
         Feature { name, min, max }
     });
-    let fired = fired(mlp, &rows.features);
+    let fired = activity(mlp, &rows.features).fired;
     let n = rows.len() as u64;
     let layers = fired.iter().map(|fired| Layer {
         units: fired.len() as u64,
@@ -147,37 +147,4 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
         layers: layers.collect(),
         columns: columns.collect(),
     })
-}
-
-/// Values of every hidden unit for a row, layer after layer, in the order of the reference forward pass.
-pub(super) fn activations(mlp: &Mlp, row: &[f32], mut visit: impl FnMut(usize, &[f32])) {
-    let layers = mlp.layers();
-    let mut x = row.to_vec();
-    for (index, dense) in layers[..layers.len() - 1].iter().enumerate() {
-        let mut y = dense.biases.clone();
-        for (x, weights) in x.iter().zip(dense.weights.chunks_exact(dense.outputs())) {
-            y.iter_mut().zip(weights).for_each(|(y, w)| *y += w * x);
-        }
-        y.iter_mut().for_each(|y| *y = y.max(0.0));
-        visit(index, &y);
-        x = y;
-    }
-}
-
-/// On how many rows each hidden unit gives more than 0, layer by layer, on all cores.
-///
-/// # Shapes
-/// `rows: [N, W]`, row by row.
-pub fn fired(mlp: &Mlp, rows: &[f32]) -> Vec<Vec<u64>> {
-    let sizes = mlp.sizes();
-    let none = || sizes[1..sizes.len() - 1].iter().map(|&n| vec![0u64; n]).collect::<Vec<_>>();
-    let count = |mut fired: Vec<Vec<u64>>, row: &[f32]| {
-        activations(mlp, row, |layer, values| fired[layer].iter_mut().zip(values).for_each(|(n, &v)| *n += u64::from(v > 0.0)));
-        fired
-    };
-    let add = |mut a: Vec<Vec<u64>>, b: Vec<Vec<u64>>| {
-        a.iter_mut().flatten().zip(b.into_iter().flatten()).for_each(|(a, b)| *a += b);
-        a
-    };
-    rows.par_chunks(sizes[0]).with_min_len(1024).fold(none, count).reduce(none, add)
 }

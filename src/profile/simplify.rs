@@ -9,7 +9,7 @@
 //! The last two change rounding. They are kept only if the f32 answers stay within 1.5 times the first network's own f32 error, against its f64 answers on the same rows.
 
 use super::ProfileError;
-use super::network::{activations, fired};
+use crate::model::simplify::{activity, walk};
 use crate::model::{Dense, Mlp};
 use serde::Serialize;
 use serde_json::json;
@@ -226,7 +226,7 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
     let box_of_rows: Vec<[f32; 2]> = (0..width)
         .map(|c| rows.iter().skip(c).step_by(width).fold([f32::INFINITY, f32::NEG_INFINITY], |[lo, hi], &x| [lo.min(x), hi.max(x)]))
         .collect();
-    let fired = fired(mlp, rows);
+    let fired = activity(mlp, rows).fired;
     let bounds = intervals(mlp, &box_of_rows);
     let hidden = mlp.layers().len() - 1;
 
@@ -340,7 +340,7 @@ fn inputs_of(mlp: &Mlp, rows: &[f32], l: usize) -> Vec<Vec<f64>> {
     let of = |row: &[f32]| {
         let mut read = wide(row);
         if l > 0 {
-            activations(mlp, row, |layer, values| {
+            walk(mlp, row, |layer, values| {
                 if layer + 1 == l {
                     read = wide(values);
                 }
@@ -358,7 +358,7 @@ impl Report {
     /// If the row is not as wide as the feature set.
     pub fn holds(&self, first: &Mlp, row: &[f32]) -> bool {
         let mut holds = self.constants.iter().all(|c| row[c.column] == c.value);
-        activations(first, row, |layer, values| {
+        walk(first, row, |layer, values| {
             holds &= self.removed.iter().all(|r| r.layer != layer || r.unheard || values[r.unit] <= 0.0);
             holds &= self.merged.iter().all(|m| m.layer != layer || m.units.iter().all(|&u| values[u] > 0.0));
         });

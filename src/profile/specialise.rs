@@ -3,11 +3,11 @@
 //! Some of the scene's tiles are held out: no row of theirs is trained on, and a smaller network is accepted only if it keeps the error on them as well as on the whole. They are
 //! of the same scene all the same, so that what comes out is for that scene and those like it.
 
-use super::network::activations;
 use super::{Errors, ProfileError, Scene};
 use crate::dataset::build::normalise;
 use crate::dataset::{Batch, Blocks, Rows};
 use crate::features::{Extractor, Target};
+use crate::model::simplify::walk;
 use crate::model::{Dense, Mlp};
 use crate::numeric::rng::stream;
 use crate::oit::neural::Neural;
@@ -274,7 +274,7 @@ fn shrink(mlp: &Mlp, rows: &[f32], hidden: &[usize]) -> Result<Mlp, ProfileError
     let mut count = 0.0;
     for row in rows.chunks_exact(width).step_by(stride) {
         count += 1.0;
-        activations(mlp, row, |layer, values| {
+        walk(mlp, row, |layer, values| {
             for (sum, &v) in sums[layer].iter_mut().zip(values) {
                 sum[0] += f64::from(v);
                 sum[1] += f64::from(v) * f64::from(v);

@@ -5,7 +5,7 @@ use crate::bench::Summary;
 use crate::bench::methods::{Clock, Contender, Cost, FrontTime, NONE, Setting, Table};
 use crate::bench::scatter::{Captions, Point, is_drawn, svg};
 use crate::cli::Verdict;
-use crate::cli::scene::{SceneOptions, load};
+use crate::cli::scene::{SceneOptions, ViewOptions, load};
 use crate::cli::ui::{Ui, machine, report, table};
 use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
@@ -13,8 +13,7 @@ use crate::export::Format;
 use crate::gpu::{Gpu, classic};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
-use crate::oit::{Context, all_names, parse};
-use crate::pixel::CameraPlanes;
+use crate::oit::{all_names, parse};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -43,18 +42,8 @@ pub struct BenchMethods {
     out: Option<PathBuf>,
     #[command(flatten)]
     options: SceneOptions,
-    /// Near plane of the camera, instead of the list's own [scene units].
-    #[arg(long, requires = "far")]
-    near: Option<f32>,
-    /// Far plane of the camera, instead of the list's own [scene units].
-    #[arg(long, requires = "near")]
-    far: Option<f32>,
-    /// View depths that moment depth -1 and 1 stand for, instead of the list's extremes [scene units].
-    #[arg(long, num_args = 2, value_names = ["V0", "V1"])]
-    depth_range: Option<Vec<f32>>,
-    /// Linear colour behind everything.
-    #[arg(long, num_args = 3, value_names = ["R", "G", "B"], default_values_t = [1.0, 1.0, 1.0])]
-    background: Vec<f64>,
+    #[command(flatten)]
+    view: ViewOptions,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
@@ -86,12 +75,8 @@ impl BenchMethods {
             may_write(&out.join(RESULTS), replace)?;
             pictures(out).iter().try_for_each(|path| may_write(path, replace))?;
         }
-        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        let context = Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) };
-        let background = [self.background[0], self.background[1], self.background[2]];
-        if let Some(wrong) = background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-            bail!("--background {wrong}: every channel must lie in [0, 1]");
-        }
+        let context = self.view.context()?;
+        let background = self.view.background()?;
         let (contenders, demanded) = self.contenders()?;
         let plan = self.common.prepare()?;
         let gpu = if self.device.contains(&Device::Gpu) { self.gpu(ui)? } else { None };
