@@ -435,8 +435,8 @@ mod tests {
         compare::<8>(FeatureSet::Recentred8);
     }
 
-    /// `nmt_fragment_transmittance`, which leaves early, against `nmt_recentred`, which computes everything, with `nmt_transmittance` behind it: the same bits, for
-    /// pixels of every kind of answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
+    /// `nmt_fragment_transmittance`, which branches, against `nmt_recentred`, which computes everything, with `nmt_transmittance` behind it: known answers to the bit,
+    /// the network's to 1e-6, for pixels of every kind of answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
     #[test]
     fn early_answers_are_those_of_the_whole_computation() {
         fn compare<const K: usize>(set: FeatureSet) {
@@ -472,8 +472,10 @@ mod tests {
                         let (features, known) = (&whole[..set.width()], whole[set.width()]);
                         let network = one(ENTRY, vec![Value::numbers(features)])[0];
                         let answer = one("nmt_fragment_transmittance", arguments)[0];
+                        // The one takes the other absorbance from its logarithm, the other as it is.
                         let expected = if known >= 0.0 { known } else { network };
-                        assert_eq!(answer.to_bits(), expected.to_bits(), "{format:?} K = {K} n = {n}: {answer} for {expected}");
+                        let bar = if known >= 0.0 { 0.0 } else { 1e-6 };
+                        assert!(near(answer, expected, bar), "{format:?} K = {K} n = {n}: {answer} for {expected}");
                         controls += usize::from(known >= 0.0 && answer != network);
                         kinds[match () {
                             () if known < 0.0 => 4,

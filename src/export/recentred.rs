@@ -1,6 +1,6 @@
 //! Shader source of the recentred features: the twin of [`crate::features::recentred`], unrolled for the number of moments.
 
-use super::shader::{ENTRY, Language, Numbers, Precision};
+use super::shader::{Language, Numbers, Precision, SHARE};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
     ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
@@ -16,12 +16,12 @@ struct Writer {
     depth: usize,
 }
 
-/// How [`look`] hands over what is known without the network.
+/// What becomes of what [`look`] computes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Hand {
-    /// As the last number of the features, everything computed and no branch taken.
+    /// The features are the result, and behind them what is known without the network. No branch is taken.
     Beside,
-    /// At once, before anything is computed that only others need.
+    /// The answer is the result; what is known branches around all that only others need.
     Early,
 }
 
@@ -53,15 +53,6 @@ impl Writer {
     fn close(&mut self) {
         self.depth -= 1;
         self.statement("}");
-    }
-
-    /// Leaves the function under a condition, where answers are handed over early.
-    fn leave(&mut self, hand: Hand, condition: &str, value: &str) {
-        if hand == Hand::Early {
-            self.open(condition);
-            self.statement(&format!("return {value};"));
-            self.close();
-        }
     }
 
     /// A value that does not change.
@@ -125,15 +116,15 @@ impl Writer {
         self.line("}");
     }
 
-    /// Ends a function with what the network answers to features.
-    fn give_answer(&mut self, features: &[String]) {
+    /// The share that the network answers to features, as an expression.
+    fn share(&mut self, features: &[String]) -> String {
         let (n, list) = (features.len(), features.join(", "));
         match self.language {
-            Language::Wgsl => self.give(&format!("min({ENTRY}(array<f32, {n}>({list})), 1.0)")),
-            Language::Glsl => self.give(&format!("min({ENTRY}(float[{n}]({list})), 1.0)")),
+            Language::Wgsl => format!("{SHARE}(array<f32, {n}>({list}))"),
+            Language::Glsl => format!("{SHARE}(float[{n}]({list}))"),
             Language::Hlsl => {
                 self.statement(&format!("float features[{n}] = {{ {list} }};"));
-                self.give(&format!("min({ENTRY}(features), 1.0)"));
+                format!("{SHARE}(features)")
             }
         }
     }
@@ -195,15 +186,95 @@ fn own_moments(w: &mut Writer, k: usize) {
 }
 
 fn look(w: &mut Writer, k: usize, hand: Hand) {
+    let early = hand == Hand::Early;
     let most = w.number(MOST_ABSORBANCE);
     w.bind("others", &format!("clamp(b0 - absorbance, 0.0, {most})"));
-    w.leave(hand, "v == nearest", "1.0");
-    w.leave(hand, "others <= 1e-6 * b0", "1.0");
-    // However coarse the exponential, no answer is above 1.
-    w.leave(hand, "v == farthest", "min(exp(-others), 1.0)");
+    if early {
+        // One condition a line: short-circuit operators would branch too.
+        w.variable("front", "0.0");
+        w.open("v != nearest");
+        w.open("others > 1e-6 * b0");
+        w.statement("front = others;");
+        w.open("v != farthest");
+    }
+    recentred_moments(w, k);
+    w.bind("along", "(z - c) * h1");
+    // In thin pixels view depth says more than moment depth.
+    w.bind("range", "farthest - nearest");
+    w.bind("ratio", "range / nearest");
+    w.bind("t", "(v - nearest) / max(range, 1e-30)");
+    let thin = w.number(THIN);
+    let x = w.select(&format!("ratio < {thin}"), "2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0", "along");
+    w.bind("x", &format!("clamp({x}, -1.0, 1.0)"));
+
+    // Three fragments, and four.
+    w.bind("reach", "1.0 + 2.0 * abs(c) * h1");
+    w.bind("e1", &format!("{ROUNDING} * reach * b0 * per_b0"));
+    let (usual, deviation) = (w.number(USUAL_NOISE), by_count(w, MEAN_DEVIATION));
+    w.bind("per_n", "1.0 / n");
+    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
+    w.bind("deviation1", &deviation);
+    w.bind("trust1", "deviation1 * deviation1");
+    w.bind("mean0", "m1 * (trust1 / (trust1 + noise1 * noise1))");
+    w.bind("front3", "others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0)");
+    if early {
+        w.statement("front = front3;");
+        w.open("n != 3.0");
+    }
+    w.bind("inner", "1.0 - m2");
+    w.bind("per_mass1", "1.0 / max(inner, 1e-6)");
+    w.bind("raw_mean1", "clamp((m1 - m3) * per_mass1, -1.0, 1.0)");
+    if early {
+        w.variable("known", "-1.0");
+        w.open("n == 4.0");
+    }
+    four(w);
+    // NaN is no answer.
+    let tolerance = w.number(CLOSED_FORM_TOLERANCE);
+    let sure = format!("error * others <= {tolerance} * (1.0 + least * (1.0 + 0.5 * least))");
+    let answer = w.select(&sure, "others * share4", "-1.0");
+    match hand {
+        Hand::Early => {
+            w.statement(&format!("known = {answer};"));
+            w.close();
+            w.statement("front = known;");
+            w.open("known < 0.0");
+        }
+        Hand::Beside => {
+            w.variable("front", &answer);
+            let rules = [("n == 4.0", "front", "-1.0"), ("n == 3.0", "front3", "front"), ("v == farthest", "others", "front")];
+            let first = [("others > 1e-6 * b0", "front", "0.0"), ("v == nearest", "0.0", "front")];
+            for (condition, yes, no) in rules.into_iter().chain(first) {
+                let chosen = w.select(condition, yes, no);
+                w.statement(&format!("front = {chosen};"));
+            }
+            let known = w.select("front >= 0.0", "min(exp(-front), 1.0)", "-1.0");
+            w.bind("known", &known);
+        }
+    }
+    let mut items = features(w, k);
+    match hand {
+        Hand::Beside => {
+            items.push("known".to_owned());
+            w.give_array(&items);
+        }
+        Hand::Early => {
+            let share = w.share(&items);
+            w.statement(&format!("front = others * {share};"));
+            while w.depth > 0 {
+                w.close();
+            }
+            // However coarse the exponential, no answer is above 1.
+            w.give("min(exp(-front), 1.0)");
+        }
+    }
+}
+
+/// c, 1/h and m1..mk.
+fn recentred_moments(w: &mut Writer, k: usize) {
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
     let least = w.number(LEAST_HALF_RANGE);
-    w.bind("h", &format!("max(0.5 * (z_farthest - z_nearest), {least})"));
+    w.bind("h1", &format!("1.0 / max(0.5 * (z_farthest - z_nearest), {least})"));
     own_moments(w, k);
     w.bind("per_b0", "1.0 / max(others, 1e-30)");
     for i in 1..=k {
@@ -216,7 +287,6 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
             w.statement(&format!("m{i} = m{i} - {before};"));
         }
     }
-    w.bind("h1", "1.0 / h");
     w.bind("h2", "h1 * h1");
     w.bind("h3", "h2 * h1");
     w.bind("h4", "h2 * h2");
@@ -224,116 +294,79 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
         w.statement(&format!("m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
     }
-    // In thin pixels view depth says more than moment depth.
-    w.bind("range", "farthest - nearest");
-    w.bind("ratio", "range / nearest");
-    w.bind("t", "(v - nearest) / max(range, 1e-30)");
-    let thin = w.number(THIN);
-    let x = w.select(&format!("ratio < {thin}"), "2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0", "(z - c) / h");
-    w.bind("x", &format!("clamp({x}, -1.0, 1.0)"));
+}
 
-    // Three fragments, and four.
-    w.bind("reach", "1.0 + 2.0 * abs(c) / h");
+/// The closed form of four fragments: the share in front, how far it may be off, and the least optical depth in front.
+fn four(w: &mut Writer) {
     let epsilon = w.number(f32::EPSILON.into());
-    w.bind("e1", &format!("{ROUNDING} * reach * b0 * per_b0"));
-    let (usual, deviation) = (w.number(USUAL_NOISE), by_count(w, MEAN_DEVIATION));
-    w.bind("per_n", "1.0 / n");
-    w.bind("noise1", &format!("e1 * ({usual} * sqrt(n))"));
-    shrunk(w, "mean0", "m1", "0.0", "noise1", &deviation);
-    w.bind("share3", "clamp(0.5 * (1.0 - mean0), 0.0, 1.0)");
-    w.leave(hand, "n == 3.0", "min(exp(-(others * share3)), 1.0)");
-    if hand == Hand::Early {
-        w.open("n == 4.0");
-    }
     w.bind("e2", "e1 * reach");
-    w.bind("inner", "1.0 - m2");
-    w.bind("safe_inner", "max(inner, 1e-30)");
-    w.bind("u", "clamp((m1 - m3) / safe_inner, -1.0, 1.0)");
-    w.bind("u_error", "(e1 + e2 * reach + abs(u) * e2) / safe_inner");
-    let sign = w.select("u < (z - c) / h", "-1.0", "1.0");
+    w.bind("u", "raw_mean1");
+    // Error of (1 - x^2) mu's first moment; u is off by so much over its mass.
+    w.bind("off", "e1 + e2 * (reach + abs(u))");
+    let sign = w.select("u < along", "-1.0", "1.0");
     w.bind("side", &sign);
     w.bind("gap", "1.0 + side * u");
-    w.bind("safe_gap", "max(gap, 1e-30)");
-    w.bind("end", "0.5 * (1.0 - side * m1 - inner / safe_gap)");
+    w.bind("per_gap", "1.0 / max(gap, 1e-30)");
+    w.bind("end", "0.5 * (1.0 - side * m1 - inner * per_gap)");
     let straddle = w.number(STRADDLE);
-    let straddles = w.select(&format!("abs((z - c) / h - u) <= {straddle} * u_error"), &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
-    w.bind("error", &format!("0.5 * (e1 + e2 / safe_gap + inner * u_error / (safe_gap * safe_gap)) + {straddles}"));
+    let straddles = w.select(&format!("abs(along - u) <= {straddle} * off * per_mass1"), &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
+    w.bind("error", &format!("0.5 * (e1 + (e2 + off * per_gap) * per_gap) + {straddles}"));
     let share = w.select("side < 0.0", "1.0 - end", "end");
     w.bind("share4", &format!("clamp({share}, 0.0, 1.0)"));
-    w.bind("steepest", "others * exp(-(others * max(share4 - error, 0.0)))");
-    let tolerance = w.number(CLOSED_FORM_TOLERANCE);
-    // One condition a line: short-circuit operators would branch.
-    w.variable("known", "exp(-(others * share4))");
-    let mut rules = vec![(format!("error * steepest > {tolerance}"), "-1.0"), ("inner <= 0.0".to_owned(), "-1.0"), ("gap <= 0.0".to_owned(), "-1.0")];
-    if hand == Hand::Beside {
-        rules.extend([
-            ("n != 4.0".to_owned(), "-1.0"),
-            ("n == 3.0".to_owned(), "exp(-(others * share3))"),
-            ("v == farthest".to_owned(), "exp(-others)"),
-            ("others <= 1e-6 * b0".to_owned(), "1.0"),
-            ("v == nearest".to_owned(), "1.0"),
-        ]);
-    }
-    for (condition, value) in rules {
-        let chosen = w.select(&condition, value, "known");
-        w.statement(&format!("known = {chosen};"));
-    }
-    w.statement("known = min(known, 1.0);");
-    if hand == Hand::Early {
-        w.leave(hand, "known >= 0.0", "known");
-        w.close();
-    }
+    w.bind("least", "others * max(share4 - error, 0.0)");
+}
 
-    // The measure, and what is left of it without its ends; what rounding has made noise of goes over to what is expected.
-    let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
+/// The features: the measure, and what is left of it without its ends; what rounding has made noise of goes over to what is expected. Returns their names.
+///
+/// Value and expectation are weighted by the squares of deviation and noise over one common denominator, so that the chain of divisions is short. Noise is bounded,
+/// so that its square does not overflow.
+fn features(w: &mut Writer, k: usize) -> Vec<String> {
     let third = w.number(std::f64::consts::LOG2_E / 3.0);
     w.bind("count", &format!("log(n) * {third} - 1.0"));
     let offset = w.number(ABSORBANCE_OFFSET.into());
     let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
     let growth = w.number(NOISE_GROWTH);
     w.bind("further", &format!("reach * {growth}"));
-    for i in 2..=4 {
-        w.bind(&format!("noise{i}"), &format!("noise{} * further", i - 1));
-    }
+    w.bind("noise2", "min(noise1 * further, 1e15)");
+    w.bind("noise3", "noise1 * further * further");
+    w.bind("noise4", "noise3 * further");
+
+    w.bind("most0", "max(1.0 - mean0 * mean0, 1e-6)");
+    let (deviation, expected) = (by_count(w, SPREAD_DEVIATION), by_count(w, USUAL_SPREAD));
+    w.bind("deviation2", &deviation);
+    w.bind("trust2", "deviation2 * deviation2 * most0");
+    w.bind("doubt2", "noise2 * noise2");
+    w.bind("spread0", &format!("(clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + ({expected}) * doubt2) / (most0 * trust2 + doubt2)"));
+
+    // What mean and spread lead to expect has denominators of its own.
+    w.bind("mean_part", "1.0 + spread0");
+    let deviation = by_count(w, INNER_MEAN_DEVIATION);
+    w.bind("deviation3", &format!("({deviation}) * (spread0 + 0.02)"));
+    w.bind("trust3", "deviation3 * deviation3");
+    w.bind("bounded3", "min(noise3 * per_mass1, 1e15)");
+    w.bind("doubt3", "bounded3 * bounded3");
+    w.bind("mean1", "(raw_mean1 * mean_part * trust3 + mean0 * (1.0 - spread0) * doubt3) / (mean_part * (trust3 + doubt3))");
+    w.bind("most1", "max(1.0 - mean1 * mean1, 1e-6)");
+    w.bind("spread_part", "mean_part + spread0");
+    let (deviation, usual) = (by_count(w, INNER_SPREAD_DEVIATION), by_count(w, USUAL_INNER_SPREAD));
+    w.bind("deviation4", &format!("({deviation}) * (spread0 + 0.02)"));
+    w.bind("trust4", "deviation4 * deviation4 * most1");
+    w.bind("bounded4", "min(noise4 * per_mass1, 1e15)");
+    w.bind("doubt4", "bounded4 * bounded4");
+    w.bind("raw_square1", "clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1)");
+    w.bind("square1", &format!("(raw_square1 * trust4 * spread_part + ({usual}) * spread0 * doubt4) / (spread_part * (trust4 * most1 + doubt4))"));
+    w.bind("spread1", "sqrt(square1)");
+    items.extend(["mean0", "spread0", "mean1", "spread1"].map(str::to_owned));
+
+    // Beyond, moments of (1 − x²)² μ and so on: differences of differences.
+    let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
     for level in 0..k / 2 {
-        let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
-        let (first, second) = match level {
-            0 => (q[1].clone(), q[2].clone()),
-            _ => {
-                w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
-                (format!("{} * per_mass{level}", q[1]), format!("{} * per_mass{level}", q[2]))
-            }
-        };
-        let raw = match level {
-            0 => first,
-            _ => format!("clamp({first}, -1.0, 1.0)"),
-        };
-        match level {
-            // With the closed forms.
-            0 => {}
-            1 => {
-                let deviation = by_count(w, INNER_MEAN_DEVIATION);
-                let expected = "mean0 * (1.0 - spread0) / (1.0 + spread0)";
-                shrunk(w, &mean, &raw, expected, "noise3 * per_mass1", &format!("({deviation}) * (spread0 + 0.02)"));
-            }
-            _ => w.bind(&mean, &raw),
-        }
-        w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
-        let raw = format!("clamp(({second} - {mean} * {mean}) / most{level}, 0.0, 1.0)");
-        match level {
-            0 => {
-                let (deviation, expected) = (by_count(w, SPREAD_DEVIATION), by_count(w, USUAL_SPREAD));
-                shrunk(w, &spread, &raw, &expected, "noise2 / most0", &deviation);
-            }
-            1 => {
-                let (deviation, usual) = (by_count(w, INNER_SPREAD_DEVIATION), by_count(w, USUAL_INNER_SPREAD));
-                let expected = format!("({usual}) * spread0 / (1.0 + spread0 + spread0)");
-                shrunk(w, "square1", &raw, &expected, "noise4 * per_mass1 / most1", &format!("({deviation}) * (spread0 + 0.02)"));
-                w.bind(&spread, "sqrt(square1)");
-            }
-            _ => w.bind(&spread, &format!("sqrt({raw})")),
-        }
         if level >= 2 {
+            let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
+            w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
+            w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
+            w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
+            w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / most{level}, 0.0, 1.0))", q[2]));
             for (name, moment, value) in [
                 (format!("sure_{mean}"), 2 * level + 1, format!("{mean} * trust_{mean}")),
                 (format!("sure_{spread}"), 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}")),
@@ -344,28 +377,22 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
                 w.bind(&name, &value);
             }
             items.extend([format!("sure_{mean}"), format!("sure_{spread}")]);
-        } else {
-            items.extend([mean, spread]);
         }
         let rest = q.len() - 2;
         if rest > 2 {
             q = (0..rest)
                 .map(|i| {
                     let name = format!("q{}_{i}", level + 1);
-                    let value = format!("{} - {}", q[i], q[i + 2]);
-                    w.bind(&name, &value);
+                    // With four moments the text above has all that is needed.
+                    if k > 4 {
+                        w.bind(&name, &format!("{} - {}", q[i], q[i + 2]));
+                    }
                     name
                 })
                 .collect();
         }
     }
-    match hand {
-        Hand::Beside => {
-            items.push("known".to_owned());
-            w.give_array(&items);
-        }
-        Hand::Early => w.give_answer(&items),
-    }
+    items
 }
 
 /// a + b/n.
@@ -373,19 +400,12 @@ fn by_count(w: &Writer, quantity: ByCount) -> String {
     format!("{} + {} * per_n", w.number(quantity.many), w.number(quantity.few))
 }
 
-/// Twin of the function of this name beside the features.
-fn shrunk(w: &mut Writer, name: &str, value: &str, expected: &str, noise: &str, deviation: &str) {
-    w.bind(&format!("expected_{name}"), expected);
-    w.bind(&format!("ratio_{name}"), &format!("({noise}) / ({deviation})"));
-    w.bind(name, &format!("expected_{name} + ({value} - expected_{name}) / (1.0 + ratio_{name} * ratio_{name})"));
-}
-
 /// The function that a renderer calls in pass 2: known answers where there are, the network where there are none.
 pub fn answer(language: Language, set: FeatureSet) -> String {
     let k = set.moments();
     let mut w = Writer::new(language);
-    w.line("\n// Pass 2: transmittance in front of a fragment. Parameters as of nmt_recentred, and the same numbers; but what is known without the network returns");
-    w.line("// before the features are computed, so that groups of threads in which all is known skip them and the network.");
+    w.line("\n// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features");
+    w.line("// and the network, so that groups of threads in which all is known skip them.");
     let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
     w.function("nmt_fragment_transmittance", &parameters, 0);
     look(&mut w, k, Hand::Early);

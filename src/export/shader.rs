@@ -47,8 +47,11 @@ pub struct Kind {
     pub precision: Precision,
 }
 
-/// The function that answers; it takes the array that `nmt_features` returns.
+/// The function that answers; it takes the array of features.
 pub const ENTRY: &str = "nmt_transmittance";
+
+/// The network itself where it answers with a share of absorbance; takes what [`ENTRY`] takes.
+pub(super) const SHARE: &str = "nmt_share";
 
 impl Language {
     fn feature_source(self, set: FeatureSet) -> String {
@@ -80,10 +83,10 @@ impl Language {
         }
     }
 
-    fn function(self, width: usize) -> String {
+    fn function(self, name: &str, width: usize) -> String {
         match self {
-            Self::Wgsl => format!("fn {ENTRY}(f: array<f32, {width}>) -> f32 {{\n"),
-            Self::Glsl | Self::Hlsl => format!("float {ENTRY}(float f[{width}]) {{\n"),
+            Self::Wgsl => format!("fn {name}(f: array<f32, {width}>) -> f32 {{\n"),
+            Self::Glsl | Self::Hlsl => format!("float {name}(float f[{width}]) {{\n"),
         }
     }
 }
@@ -409,12 +412,11 @@ impl Network<'_> {
     }
 
     fn head(&self, text: &mut String) {
-        let language = self.kind.language;
-        let _ = write!(
-            text,
-            "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}",
-            language.function(self.mlp.feature_set().width())
-        );
+        let (what, name) = match self.mlp.feature_set().answer() {
+            Answer::Sigmoid => ("Transmittance in front of the fragment with features f", ENTRY),
+            Answer::Fraction { .. } => ("Share of the other fragments' absorbance that lies in front of the fragment with features f", SHARE),
+        };
+        let _ = write!(text, "\n// {what}, in [0, 1].\n{}", self.kind.language.function(name, self.mlp.feature_set().width()));
     }
 
     fn plain(&self, text: &mut String) {
@@ -474,18 +476,17 @@ impl Network<'_> {
     fn ending(&self) -> String {
         let language = self.kind.language;
         // 1/(1 + e^−x)
-        let sigmoid = "1.0 / (1.0 + exp(min(-logit, 80.0)))";
-        match self.mlp.feature_set().answer() {
-            Answer::Sigmoid => format!("    return {sigmoid};\n}}\n"),
-            Answer::Fraction { column, offset } => {
-                let absorbance = language.bind(
-                    "float",
-                    "absorbance",
-                    &format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset)),
-                );
-                format!("{absorbance}    return exp(-min(absorbance * ({sigmoid}), 80.0));\n}}\n")
-            }
+        let mut text = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n".to_owned();
+        if let Answer::Fraction { column, offset } = self.mlp.feature_set().answer() {
+            let absorbance = format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset));
+            let _ = write!(
+                text,
+                "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
+                language.function(ENTRY, self.mlp.feature_set().width()),
+                language.bind("float", "absorbance", &absorbance),
+            );
         }
+        text
     }
 
     /// Constants of the packed form.

@@ -270,32 +270,31 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         if self.count != 4 || K < 3 {
             return None;
         }
-        let (e2, e3) = (e1 * reach, e1 * reach * reach);
+        let e2 = e1 * reach;
         let inner = R::ONE - m[1];
-        if inner <= R::ZERO {
-            return None;
-        }
-        let u = clamp((m[0] - m[2]) / inner, -R::ONE, R::ONE);
-        let u_error = (e1 + e3 + u.abs() * e2) / inner;
+        let per_inner = R::ONE / inner.max(R::from_f64(LEAST_MASS));
+        let u = clamp((m[0] - m[2]) * per_inner, -R::ONE, R::ONE);
+        // Error of m_1 − m_3 and of what u takes from m_2.
+        let off = e1 + e2 * (reach + u.abs());
         let x = (seen.z - c) / h;
         let in_front = u < x;
         // The end on the fragment's far side decides: s = A_near, or 1 − A_far.
         let sign = if in_front { -R::ONE } else { R::ONE };
-        let gap = R::ONE + sign * u;
-        if gap <= R::ZERO {
-            return None;
-        }
-        let end = half * (R::ONE - sign * m[0] - inner / gap);
-        let mut error = half * (e1 + e2 / gap + inner * u_error / (gap * gap));
-        if (x - u).abs() <= R::from_f64(STRADDLE) * u_error {
+        let per_gap = R::ONE / (R::ONE + sign * u).max(R::from_f64(1e-30));
+        let end = half * (R::ONE - sign * m[0] - inner * per_gap);
+        let mut error = half * (e1 + (e2 + off * per_gap) * per_gap);
+        if (x - u).abs() <= R::from_f64(STRADDLE) * off * per_inner {
             error += inner / (R::ONE - u * u).max(R::EPSILON);
         }
         let share = clamp(if in_front { R::ONE - end } else { end }, R::ZERO, R::ONE);
-        // dT = b_0' T ds, with the greatest T that the error of s allows.
-        let steepest = others * transmittance(others * (share - error).max(R::ZERO));
-        (error * steepest <= R::from_f64(CLOSED_FORM_TOLERANCE)).then(|| transmittance(others * share))
+        // dT = b_0' T ds, T at most e^−l with l the least optical depth that the error of s allows; e^l ≥ 1 + l + l²/2.
+        let least = others * (share - error).max(R::ZERO);
+        (error * others <= R::from_f64(CLOSED_FORM_TOLERANCE) * (R::ONE + least * (R::ONE + half * least))).then(|| transmittance(others * share))
     }
 }
+
+/// Least mass of (1 − x²) μ that is divided by.
+const LEAST_MASS: f64 = 1e-6;
 
 /// Usual error of the first moment of one fragment, as a share of the rounding of a stored moment.
 pub const USUAL_NOISE: f64 = 0.12;
@@ -366,7 +365,7 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
     let per_n = R::ONE / n;
     let mut q = [R::ONE; 9];
     q[1..=K].copy_from_slice(m);
-    let least = c(1e-6);
+    let least = c(LEAST_MASS);
     let mut out = [R::ZERO; K];
     let further = reach * c(NOISE_GROWTH);
     let noise1 = e1 * usual;
@@ -420,8 +419,8 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
 
 /// What is best thought of a quantity: its value, or as the noise in it grows beyond its usual deviation what is expected of it.
 fn shrunk<R: Real>(value: R, expected: R, noise: R, deviation: R) -> R {
-    let ratio = noise / deviation;
-    expected + (value - expected) / (R::ONE + ratio * ratio)
+    let trust = deviation * deviation;
+    expected + (value - expected) * (trust / (trust + noise * noise))
 }
 
 /// e^−A, never above 1 however coarse the exponential.

@@ -56,8 +56,9 @@ fn by_count<S: Simd>(simd: S, quantity: ByCount, per_n: f32x16<S>) -> f32x16<S> 
 
 /// What is best thought of a quantity; see the function of this name beside [`PixelSums`](super::recentred::PixelSums).
 #[inline(always)]
-fn shrunk<S: Simd>(simd: S, value: f32x16<S>, expected: f32x16<S>, noise: f32x16<S>, deviation: f32x16<S>) -> f32x16<S> {
-    expected + (value - expected) / (f32x16::splat(simd, 1.0) + square(noise / deviation))
+fn shrunk<S: Simd>(value: f32x16<S>, expected: f32x16<S>, noise: f32x16<S>, deviation: f32x16<S>) -> f32x16<S> {
+    let trust = square(deviation);
+    expected + (value - expected) * (trust / (trust + square(noise)))
 }
 
 /// NaN becomes the lower end.
@@ -132,27 +133,28 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let (zero, half, one) = (splat(0.0), splat(0.5), splat(1.0));
         let three = self.count.simd_eq(splat(3.0));
         let m = &d.m;
-        let mean = shrunk(simd, m[0], zero, self.noise(simd, d), by_count(simd, MEAN_DEVIATION, one / self.count));
+        let mean = shrunk(m[0], zero, self.noise(simd, d), by_count(simd, MEAN_DEVIATION, one / self.count));
         let of_three = clamp(half * (one - mean), zero, one);
         if K < 3 {
             return (d.others * of_three, three);
         }
         let e1 = self.rounding(simd, d);
-        let (e2, e3) = (e1 * d.reach, e1 * d.reach * d.reach);
+        let e2 = e1 * d.reach;
         let inner = one - m[1];
-        let u = clamp((m[0] - m[2]) / inner, -one, one);
-        let u_error = (e1 + e3 + u.abs() * e2) / inner;
+        let per_inner = one / inner.max(splat(1e-6));
+        let u = clamp((m[0] - m[2]) * per_inner, -one, one);
+        let off = e1 + e2 * (d.reach + u.abs());
         let in_front = u.simd_lt(d.x);
         let sign = in_front.select(-one, one);
-        let gap = one + sign * u;
-        let end = half * (one - sign * m[0] - inner / gap);
-        let error = half * (e1 + e2 / gap + inner * u_error / (gap * gap));
+        let per_gap = one / (one + sign * u).max(splat(1e-30));
+        let end = half * (one - sign * m[0] - inner * per_gap);
+        let error = half * (e1 + (e2 + off * per_gap) * per_gap);
         let beside = inner / (one - u * u).max(splat(f32::EPSILON));
-        let error = (d.x - u).abs().simd_le(splat(STRADDLE as f32) * u_error).select(error + beside, error);
+        let error = (d.x - u).abs().simd_le(splat(STRADDLE as f32) * off * per_inner).select(error + beside, error);
         let share = clamp(in_front.select(one - end, end), zero, one);
-        let steepest = d.others * exp(simd, -(d.others * (share - error).max(zero)));
+        let least = d.others * (share - error).max(zero);
         // NaN is not less.
-        let holds = (error * steepest).simd_le(splat(CLOSED_FORM_TOLERANCE as f32)) & inner.simd_gt(zero) & gap.simd_gt(zero);
+        let holds = (error * d.others).simd_le(splat(CLOSED_FORM_TOLERANCE as f32) * (one + least * (one + half * least)));
         (d.others * three.select(of_three, share), three | holds)
     }
 
@@ -179,10 +181,10 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
             let per_mass = one / q[0].max(least);
             let mut mean = clamp(q[1] * per_mass, -one, one);
             match level {
-                0 => mean = shrunk(simd, mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
+                0 => mean = shrunk(mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
                 1 => {
                     let deviation = by_count(simd, INNER_MEAN_DEVIATION, per_n) * (spread0 + splat(0.02));
-                    mean = shrunk(simd, mean, mean0 * (one - spread0) / (one + spread0), noise3 * per_mass, deviation);
+                    mean = shrunk(mean, mean0 * (one - spread0) / (one + spread0), noise3 * per_mass, deviation);
                 }
                 _ => {}
             }
@@ -191,13 +193,13 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
             match level {
                 0 => {
                     let expected = by_count(simd, USUAL_SPREAD, per_n);
-                    spread = shrunk(simd, spread, expected, noise2 / most, by_count(simd, SPREAD_DEVIATION, per_n));
+                    spread = shrunk(spread, expected, noise2 / most, by_count(simd, SPREAD_DEVIATION, per_n));
                     (mean0, spread0) = (mean, spread);
                 }
                 1 => {
                     let deviation = by_count(simd, INNER_SPREAD_DEVIATION, per_n) * (spread0 + splat(0.02));
                     let expected = by_count(simd, USUAL_INNER_SPREAD, per_n) * spread0 / (one + spread0 + spread0);
-                    spread = shrunk(simd, spread, expected, noise4 * per_mass / most, deviation).sqrt();
+                    spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
                 }
                 _ => {
                     spread = spread.sqrt();

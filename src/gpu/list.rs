@@ -47,9 +47,8 @@ pub struct Passes<'a> {
     name: String,
     accumulate: wgpu::ComputePipeline,
     weigh: wgpu::ComputePipeline,
-    sums: wgpu::Buffer,
-    /// Of methods that look at them.
-    ranges: Option<wgpu::Buffer>,
+    /// What pass 1 leaves.
+    state: wgpu::Buffer,
     weights: wgpu::Buffer,
     parameters: wgpu::Buffer,
 }
@@ -69,8 +68,8 @@ const ACCUMULATE: &str = "
 @group(0) @binding(1) var<storage, read> oit_view_z: array<f32>;
 @group(0) @binding(2) var<storage, read> oit_alpha: array<f32>;
 @group(0) @binding(3) var<storage, read> oit_parameters: array<f32>;
-@group(0) @binding(4) var<storage, read_write> oit_sums: array<f32>;
-OIT_RANGES
+@group(0) @binding(4) var<storage, read_write> oit_state: array<vec4<f32>>;
+
 @compute @workgroup_size(64)
 fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let pixel = id.x + id.y * groups.x * 64u;
@@ -99,9 +98,9 @@ const WEIGH: &str = "
 @group(0) @binding(1) var<storage, read> oit_view_z: array<f32>;
 @group(0) @binding(2) var<storage, read> oit_alpha: array<f32>;
 @group(0) @binding(3) var<storage, read> oit_parameters: array<f32>;
-@group(0) @binding(4) var<storage, read> oit_sums: array<f32>;
+@group(0) @binding(4) var<storage, read> oit_state: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> oit_weights: array<f32>;
-OIT_RANGES
+
 @compute @workgroup_size(64)
 fn oit_weigh_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let i = id.x + id.y * groups.x * 64u;
@@ -112,8 +111,7 @@ fn oit_weigh_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wor
     let pixel = oit_pixel_of[i];
     let v = oit_view_z[i];
     let alpha = oit_alpha[i];
-    let ends = OIT_ENDS;
-    let state = OitPixel(array<f32, OIT_SUMS>(OIT_LOAD), ends.x, ends.y, ends.z, oit_depth(ends.y, range), oit_depth(ends.z, range));
+    OIT_LOAD
     oit_weights[i] = oit_weight(OitFragment(v, oit_depth(v, range), alpha, oit_absorbance(alpha)), state);
 }
 ";
@@ -125,30 +123,39 @@ impl<'a> Passes<'a> {
     /// [`GpuError`]: the method's source is refused, or the list does not fit.
     pub fn new(gpu: &Gpu, list: &'a DeviceList, method: &MethodShader, range: [f32; 2]) -> Result<Self, GpuError> {
         let k = method.sums;
-        // Number and range of a pixel's fragments are kept only where the method looks at them.
-        let ranges = |binding: &str, access: &str| format!("@group(0) @binding({binding}) var<storage, {access}> oit_ranges: array<vec4<f32>>;\n");
-        let store_range = if method.range {
-            "\n    oit_ranges[pixel] = vec4<f32>(f32(oit_offsets[pixel + 1u] - oit_offsets[pixel]), nearest, farthest, 0.0);"
-        } else {
-            ""
-        };
-        let each = |f: &dyn Fn(usize) -> String, between: &str| (0..k).map(f).collect::<Vec<_>>().join(between);
-        let accumulate = ACCUMULATE
-            .replace("OIT_ADD", &each(&|i| format!("sums[{i}] += term[{i}];"), " "))
-            .replace("OIT_STORE", &(each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " ") + store_range))
-            .replace("OIT_RANGES", &if method.range { ranges("5", "read_write") } else { String::new() });
-        let weigh = WEIGH
-            .replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "))
-            .replace("OIT_RANGES", &if method.range { ranges("6", "read") } else { String::new() })
-            .replace("OIT_ENDS", if method.range { "oit_ranges[pixel]" } else { "vec4<f32>(0.0, 1.0, 1.0, 0.0)" });
+        // What pass 2 reads of a pixel, four numbers to a vector: the sums, and where the method looks at them number and range of its fragments, the range
+        // with its moment depths, so that no fragment warps the depths of others.
+        let mut state: Vec<String> = (0..k).map(|i| format!("sums[{i}]")).collect();
+        if method.range {
+            let kept = [
+                "f32(oit_offsets[pixel + 1u] - oit_offsets[pixel])",
+                "nearest",
+                "farthest",
+                "oit_depth(nearest, range)",
+                "oit_depth(farthest, range)",
+            ];
+            state.extend(kept.map(str::to_owned));
+        }
+        let vectors = state.len().div_ceil(4);
+        state.resize(4 * vectors, "0.0".to_owned());
+        let store: Vec<String> =
+            (0..vectors).map(|i| format!("oit_state[pixel * {vectors}u + {i}u] = vec4<f32>({});", state[4 * i..4 * i + 4].join(", "))).collect();
+        let load: Vec<String> = (0..vectors).map(|i| format!("let state{i} = oit_state[pixel * {vectors}u + {i}u];")).collect();
+        let number = |i: usize| format!("state{}[{}]", i / 4, i % 4);
+        let sums: Vec<String> = (0..k).map(number).collect();
+        let range_of: Vec<String> =
+            if method.range { (k..k + 5).map(number).collect() } else { ["0.0", "1.0", "1.0", "0.0", "0.0"].map(str::to_owned).to_vec() };
+        let add: Vec<String> = (0..k).map(|i| format!("sums[{i}] += term[{i}];")).collect();
+        let accumulate = ACCUMULATE.replace("OIT_ADD", &add.join(" ")).replace("OIT_STORE", &store.join("\n    "));
+        let load = format!("{}\n    let state = OitPixel(array<f32, OIT_SUMS>({}), {});", load.join("\n    "), sums.join(", "), range_of.join(", "));
+        let weigh = WEIGH.replace("OIT_LOAD", &load);
         let module = method.module();
         let parameters = [range[0], range[1], f32::from_bits(list.pixels as u32), f32::from_bits(list.fragments as u32)];
         Ok(Self {
             name: method.name.clone(),
             accumulate: gpu.compute(&format!("{}, pass 1", method.name), &format!("{module}{accumulate}"), "oit_accumulate_list")?,
             weigh: gpu.compute(&format!("{}, pass 2", method.name), &format!("{module}{weigh}"), "oit_weigh_list")?,
-            sums: gpu.zeros("sums of pixels", 4 * (k * list.pixels) as u64)?,
-            ranges: if method.range { Some(gpu.zeros("ranges of pixels", 16 * list.pixels as u64)?) } else { None },
+            state: gpu.zeros("what pass 1 leaves", 16 * (vectors * list.pixels) as u64)?,
             weights: gpu.zeros("weights", 4 * list.fragments as u64)?,
             parameters: gpu.upload("parameters", &parameters)?,
             list,
@@ -167,12 +174,12 @@ impl<'a> Passes<'a> {
 
     fn accumulate_buffers(&self) -> Vec<&wgpu::Buffer> {
         let list = self.list;
-        [&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.sums].into_iter().chain(&self.ranges).collect()
+        [&list.offsets, &list.view_z, &list.alpha, &self.parameters, &self.state].to_vec()
     }
 
     fn weigh_buffers(&self) -> Vec<&wgpu::Buffer> {
         let list = self.list;
-        [&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.sums, &self.weights].into_iter().chain(&self.ranges).collect()
+        [&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.state, &self.weights].to_vec()
     }
 
     fn accumulate_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {
