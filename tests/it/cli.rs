@@ -642,6 +642,23 @@ fn bench_train_measures_streams() {
     nmt(&["bench", "train", "--stream", &streamed, "--batch", "64"]).code(2).stderr(contains("--batch"));
 }
 
+/// Backends that this program was built without say how to build it, before anything is made.
+#[test]
+fn backends_that_are_not_built_in() {
+    let at = Workplace::new();
+    for (name, built) in [("wgpu", cfg!(feature = "wgpu")), ("cuda", cfg!(feature = "cuda"))] {
+        if built {
+            continue;
+        }
+        let message = format!("--features {name}");
+        nmt(&["train", &at.config(), "--out", &at.path("b.json"), "--backend", name]).code(2).stderr(contains(message.as_str()));
+        nmt(&["run", &at.config(), "--out", &at.path("run"), "--backend", name]).code(2).stderr(contains(message.as_str()));
+        nmt(&["bench", "train", "--backend", name]).code(2).stderr(contains(message.as_str()));
+    }
+    assert!(!Path::new(&at.path("b.json")).exists() && !Path::new(&at.path("run")).exists());
+    nmt(&["train", "--help"]).success().stdout(contains("wgpu").and(contains("cuda")));
+}
+
 #[test]
 fn bench_generate_measures_configurations() {
     let at = Workplace::new();
@@ -748,7 +765,7 @@ fn a_prepass_helps_thin_pixels() {
     };
     assert_eq!((predict(&[], "a.npy"), predict(&["--prepass"], "b.npy")), ("scene".into(), "pixel".into()));
     assert_ne!(std::fs::read(at.path("a.npy")).unwrap(), std::fs::read(at.path("b.npy")).unwrap());
-    nmt(&[&evaluate[..5], &["--methods", "abuffer", "--prepass", "--out", &at.path("x")]].concat()).code(2).stderr(contains("--model"));
+    nmt(&[&evaluate[..6], &["abuffer", "--prepass", "--out", &at.path("x")]].concat()).code(2).stderr(contains("--model"));
 }
 
 #[test]
