@@ -106,7 +106,7 @@ mod gpu {
     /// What `device` gives, opened and with its name.
     pub fn open(once: &Once, name: &'static str, device: fn() -> Result<Device, String>) -> Result<Opened, BackendError> {
         once.get_or_init(|| {
-            let opened = caught(|| {
+            let opened = caught(|| -> Result<Opened, String> {
                 let device = device()?;
                 let identity = device.identity().ok_or("burn gives the device no name")?;
                 Ok(Opened { device, adapter: Some(identity.name) })
