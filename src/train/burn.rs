@@ -118,9 +118,30 @@ mod gpu {
 
     #[cfg(feature = "wgpu")]
     pub fn wgpu() -> Result<Device, String> {
-        let (device, setup) = Device::wgpu_options()
-            .init_with_setup()
-            .map_err(|error| format!("{error}; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)"))?;
+        use burn::tensor::wgpu::{WgpuBackend, WgpuInitError};
+        use wgpu::{Backend, Backends, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions};
+
+        // OpenGL only where there is nothing else: some drivers write to stderr when asked for it.
+        let instance = Instance::new(InstanceDescriptor { backends: Backends::PRIMARY, ..InstanceDescriptor::new_without_display_handle() });
+        let strong = RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
+        let api = match pollster::block_on(instance.request_adapter(&strong)).map(|adapter| adapter.get_info().backend) {
+            Ok(Backend::Vulkan) => WgpuBackend::Vulkan,
+            Ok(Backend::Metal) => WgpuBackend::Metal,
+            Ok(Backend::Dx12) => WgpuBackend::Dx12,
+            _ => WgpuBackend::Auto,
+        };
+        let unavailable = || match std::env::var("CUBECL_WGPU_DEFAULT_DEVICE") {
+            Ok(asked) => {
+                let infos = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY)).into_iter().map(|adapter| adapter.get_info());
+                let there: Vec<String> = infos.map(|info| format!("{:?} {}", info.device_type, info.name)).collect();
+                format!("CUBECL_WGPU_DEFAULT_DEVICE is '{asked}', and there are {there:?}")
+            }
+            Err(_) => "no GPU adapter; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)".to_owned(),
+        };
+        let (device, setup) = Device::wgpu_options().graphics_api(api).init_with_setup().map_err(|error| match error {
+            WgpuInitError::AdapterUnavailable { .. } => unavailable(),
+            other => other.to_string(),
+        })?;
         // What names the adapter everywhere else means nothing to burn.
         let adapter = setup.adapter.get_info().name;
         match std::env::var("WGPU_ADAPTER_NAME") {
