@@ -823,7 +823,7 @@ fn a_prepass_helps_thin_pixels() {
     };
     assert_eq!((predict(&[], "a.npy"), predict(&["--prepass"], "b.npy")), ("scene".into(), "pixel".into()));
     assert_ne!(std::fs::read(at.path("a.npy")).unwrap(), std::fs::read(at.path("b.npy")).unwrap());
-    nmt(&[&evaluate[..6], &["abuffer", "--prepass", "--out", &at.path("x")]].concat()).code(2).stderr(contains("--model"));
+    nmt(&[&evaluate[..5], &["--methods", "abuffer", "--prepass", "--out", &at.path("x")]].concat()).code(2).stderr(contains("--model"));
 }
 
 #[test]
