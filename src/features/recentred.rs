@@ -567,7 +567,7 @@ mod tests {
             }
         }
         println!("greatest step {worst}, {controls} controls");
-        assert!(worst <= 0.05 && controls > 20, "{worst}, {controls} controls");
+        assert!(worst <= 0.02 && controls > 100, "{worst}, {controls} controls");
     }
 
     /// Features of μ against their definition in the pixel's own range, in f64: 1e-9 for pixels of half-range 0.3, so for every number of moments.
