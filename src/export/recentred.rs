@@ -3,8 +3,8 @@
 use super::shader::{Language, Numbers, Precision, SHARE};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
-    ABSORBANCE_OFFSET, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD, LEAST_HALF_RANGE,
-    MEAN_DEVIATION, MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
+    LEAST_HALF_RANGE, MEAN_DEVIATION, MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use std::fmt::Write;
 
@@ -316,7 +316,9 @@ fn first_features(w: &mut Writer) {
 
 /// The closed form of four fragments: optical depth in front.
 fn four(w: &mut Writer) {
-    w.bind("off", "max(bounded3 * deviation3 / (bounded3 + deviation3), 1e-30)");
+    let rounding = w.number(ARITHMETIC * f64::from(f32::EPSILON));
+    w.bind("noise", &format!("bounded3 + {rounding} * per_mass1"));
+    w.bind("off", "noise * deviation3 / (noise + deviation3)");
     w.bind("inner", "(1.0 - spread0) * (1.0 - mean0 * mean0)");
     w.bind("near_share", "clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0)");
     w.bind("far_share", "clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0)");

@@ -277,6 +277,9 @@ pub const USUAL_NOISE: f64 = 0.12;
 /// How much errors of moments grow from one to the next, as a share of the bound.
 pub const NOISE_GROWTH: f64 = 0.87;
 
+/// Roundings of the arithmetic itself within which two places are taken for one, whatever the sums; devices' quotients are a few ULP off.
+pub const ARITHMETIC: f64 = 8.0;
+
 /// A quantity of random pixels of n fragments, as a + b/n.
 ///
 /// # Source
@@ -364,7 +367,8 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
             1 => {
                 let deviation = INNER_MEAN_DEVIATION.of(per_n) * (spread0 + c(0.02));
                 let noise = noise3 * per_mass;
-                doubt = (noise * deviation / (noise + deviation)).max(c(1e-30));
+                let all = noise + c(ARITHMETIC) * R::EPSILON * per_mass;
+                doubt = all * deviation / (all + deviation);
                 mean = shrunk(mean, mean0 * (R::ONE - spread0) / (R::ONE + spread0), noise, deviation);
             }
             _ => {}

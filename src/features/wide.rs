@@ -1,8 +1,8 @@
 //! [`recentred`](super::recentred) and [`visible`](super::visible) for sixteen fragments at once, of any pixels, in f32; function by function what those files do, without branches.
 
 use super::recentred::{
-    ABSORBANCE_OFFSET, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD, MEAN_DEVIATION,
-    NOISE_GROWTH, SPREAD_DEVIATION, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
+    MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use super::visible::{HIDDEN, ORDER};
 use crate::numeric::lanes::{exp, ln};
@@ -184,7 +184,8 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 1 => {
                     let deviation = by_count(simd, INNER_MEAN_DEVIATION, per_n) * (spread0 + splat(0.02));
                     let noise = noise3 * per_mass;
-                    doubt = (noise * deviation / (noise + deviation)).max(splat(1e-30));
+                    let all = noise + splat(ARITHMETIC as f32 * f32::EPSILON) * per_mass;
+                    doubt = all * deviation / (all + deviation);
                     mean = shrunk(mean, mean0 * (one - spread0) / (one + spread0), noise, deviation);
                 }
                 _ => {}
