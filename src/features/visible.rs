@@ -125,11 +125,17 @@ pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
     (b1 + (least * (b2 * b0 - b1 * b1).max(R::ZERO) / (b0 - least)).sqrt()) / b0
 }
 
-/// Whether a fragment at [`first_hidden_depth`] or behind is hidden: `others` is b_0', `absorbance` its own, `count` the pixel's n, `behind` what [`most_behind`] says.
-pub fn is_hidden<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
+/// The most that the hidden fragments of a pixel may weigh, Σ a T, if this one at [`first_hidden_depth`] or behind is the nearest of them: `others` is b_0', `absorbance`
+/// its own, `count` the pixel's n, `behind` what [`most_behind`] says.
+pub fn hidden_weight<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> R {
     let least_depth = others * (R::ONE - behind) - noise.depth;
     let beta = others * behind + absorbance;
-    (-least_depth).exp() * beta.min(R::from_f64(f64::from(count) - 2.0)) <= R::from_f32(HIDDEN)
+    (-least_depth).exp() * beta.min(R::from_f64(f64::from(count) - 2.0))
+}
+
+/// Whether a fragment at [`first_hidden_depth`] or behind is hidden; see [`hidden_weight`].
+pub fn is_hidden<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
+    hidden_weight(others, absorbance, count, behind, noise) <= R::from_f32(HIDDEN)
 }
 
 #[cfg(test)]
