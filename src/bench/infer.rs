@@ -68,6 +68,7 @@ pub fn infer(plan: Plan, mlp: &Mlp, batch: usize, onnxruntime: Option<&Path>, pr
         backend,
         batch,
         simd: (backend == "simd").then(|| level_name(Level::new())),
+        adapter: None,
         flops: 2 * inference_multiply_adds(&shapes),
         samples,
         peak: peak.clone(),

@@ -17,6 +17,7 @@ pub use summary::Summary;
 
 use crate::dataset::DatasetError;
 use crate::model::ShapeError;
+use crate::train::BackendError;
 use std::time::{Duration, Instant};
 
 /// Most calls of one repetition: a call that seems to take no time at all must not be made for ever.
@@ -76,6 +77,9 @@ pub enum BenchError {
     /// Pixels could not be made.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
+    /// A backend cannot be had.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
     /// Training failed.
     #[error("{0}")]
     Train(String),
@@ -192,6 +196,8 @@ pub struct Measurement {
     pub batch: usize,
     /// SIMD level where it is ours to choose.
     pub simd: Option<&'static str>,
+    /// Name of the GPU where one computed.
+    pub adapter: Option<String>,
     /// Floating-point operations of a row, a multiplication and an addition counted as two.
     pub flops: u64,
     /// What was measured; the work is counted in rows.

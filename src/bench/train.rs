@@ -57,8 +57,10 @@ pub fn train(
     let batches: Vec<Batch<'_>> = order.chunks_exact(batch / LANES).map(|order| Batch { blocks: &blocks, order }).collect();
 
     let mut subjects: Vec<Subject<'_>> = Vec::new();
+    let mut adapters = Vec::new();
     for backend in backends {
-        let mut optimiser = backend.optimiser(network.feature_set(), &network.shapes(), &network.parameters(), &config);
+        adapters.push(backend.adapter()?);
+        let mut optimiser = backend.optimiser(network.feature_set(), &network.shapes(), &network.parameters(), &config)?;
         let mut batches = batches.iter().cycle();
         let learning_rate = config.learning_rate;
         subjects.push(Subject::new(move || {
@@ -71,17 +73,18 @@ pub fn train(
     let mut samples = measure(plan, &mut subjects, progress)?;
     let peak = samples.pop().expect("one for each subject");
     let flops = 2 * training_multiply_adds(&network.shapes());
-    let of = |(&backend, samples)| Measurement {
+    let of = |((&backend, samples), adapter)| Measurement {
         network: network.to_string(),
         backend: Backend::name(backend),
         batch,
         simd: (backend == Backend::Fused).then(|| fused::level_name(Level::new())),
+        adapter,
         flops,
         samples,
         peak: peak.clone(),
         worst_difference: None,
     };
-    Ok(backends.iter().zip(samples).map(of).collect())
+    Ok(backends.iter().zip(samples).zip(adapters).map(of).collect())
 }
 
 /// Speed of training on fresh pixels, beside what it is made of.
@@ -91,6 +94,8 @@ pub struct Streaming {
     pub network: String,
     /// What computed.
     pub backend: &'static str,
+    /// Name of the GPU where one computed.
+    pub adapter: Option<String>,
     /// Rows of a step.
     pub batch: usize,
     /// Rows of an epoch.
@@ -140,7 +145,7 @@ pub fn stream_epochs(
     fixed.dataset.refresh = 0.0;
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     for manifest in [&fixed, manifest] {
-        let mut optimiser = backend.optimiser(set, &shapes, &initial::glorot(&shapes, seed), config);
+        let mut optimiser = backend.optimiser(set, &shapes, &initial::glorot(&shapes, seed), config)?;
         let mut feed = Feed::new(&dataset.training, manifest, seed, config.batch, 0).map_err(failed)?;
         let (mut epoch, shapes) = (0, &shapes);
         subjects.push(Subject::new(move || {
@@ -159,7 +164,17 @@ pub fn stream_epochs(
     let [in_memory, streamed, generation] = samples.try_into().expect("one for each subject");
     let network = std::iter::once(set.width()).chain(shapes.iter().map(|s| s.1)).map(|n| n.to_string()).collect::<Vec<_>>().join("-");
     let rows = dataset.training.len();
-    Ok(Streaming { network, backend: backend.name(), batch: config.batch, rows, refresh, in_memory, streamed, generation })
+    Ok(Streaming {
+        network,
+        backend: backend.name(),
+        adapter: backend.adapter()?,
+        batch: config.batch,
+        rows,
+        refresh,
+        in_memory,
+        streamed,
+        generation,
+    })
 }
 
 #[cfg(test)]

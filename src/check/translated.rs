@@ -99,8 +99,9 @@ mod tests {
     use super::*;
     use crate::check::interpret::{Interpreter, Value};
     use crate::check::shader::{parse, weights};
+    use crate::export::shader::{ENTRY, network_function};
     use crate::export::translate::{FRAGMENTS, ROWS, string_of, with_entry_points};
-    use crate::export::{Format, encode, shader::ENTRY};
+    use crate::export::{Format, encode};
     use crate::features::FeatureSet;
     use crate::gpu::device::{Dispatch, groups};
     use crate::model::mlp::tests::random_mlp;
@@ -121,18 +122,20 @@ mod tests {
     /// Weights of both precisions are read back from both languages. Controls: another network's are not.
     #[test]
     fn weights_are_read_back() {
-        for hidden in [&[][..], &[5], &[8, 4], &[32, 16]] {
-            let (mlp, other) = (random_mlp(hidden, 1), random_mlp(hidden, 2));
+        let sets = [FeatureSet::Paper, FeatureSet::Recentred];
+        for (hidden, set) in [&[][..], &[5], &[8, 4], &[32, 16]].into_iter().flat_map(|hidden| sets.map(|set| (hidden, set))) {
+            let random = |seed| Mlp::new("random", set, random_mlp(hidden, seed).layers().to_vec(), Provenance::default()).unwrap();
+            let (mlp, other, entry) = (random(1), random(2), network_function(set));
             for format in [Format::Metal, Format::MetalF16, Format::Spirv, Format::SpirvF16] {
                 let bytes = encode(&mlp, format).unwrap();
                 let constants = if matches!(format, Format::Metal | Format::MetalF16) {
                     let text = std::str::from_utf8(&bytes).unwrap();
                     let constants = metal_constants(text).unwrap();
-                    metal_uses(text, &constants, ENTRY).unwrap();
+                    metal_uses(text, &constants, entry).unwrap();
                     // Control: one number of the function's own.
-                    let (head, body) = text.split_once("float nmt_transmittance(").unwrap();
+                    let (head, body) = text.split_once(&format!("float {entry}(")).unwrap();
                     let changed = body.replacen("0.", "3.", 1);
-                    assert!(metal_uses(&format!("{head}float nmt_transmittance({changed}"), &constants, ENTRY).is_err());
+                    assert!(metal_uses(&format!("{head}float {entry}({changed}"), &constants, entry).is_err());
                     constants
                 } else {
                     assert!(string_of(&bytes).unwrap().contains("network 'random'"));

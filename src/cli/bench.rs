@@ -199,7 +199,7 @@ fn merged(mut first: Value, second: Value) -> Value {
 
 fn measurement_json(what: &str, rates: &[&str], m: &Measurement) -> Value {
     let mut object = json!({
-        "benchmark": what, "network": m.network, "backend": m.backend, "batch": m.batch, "simd": m.simd,
+        "benchmark": what, "network": m.network, "backend": m.backend, "batch": m.batch, "simd": m.simd, "adapter": m.adapter,
         "gflops": m.gflops(), "share_of_peak": m.share_of_peak(),
         "multiply_add_peak_gflops": m.peak_gflops(), "raw_multiply_add_peak_flops_per_second": m.peak.rates,
     });
@@ -251,8 +251,9 @@ fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
     let peak = Summary::of(&peaks);
     let range = if peaks.len() == 1 { format!("{:.1}", peak.median) } else { format!("{:.1} to {:.1}", peak.min, peak.max) };
     let first = groups[0][0].samples.seconds.len();
+    let on_gpus: String = groups[0].iter().filter_map(|m| m.adapter.as_ref().map(|name| format!("; {} on {name}", m.backend))).collect();
     format!(
-        "{}medians of {first} repetitions by turns on {} threads; ms of one call; multiply-add peak {range} GFLOP/s, the best of the same turns\n",
+        "{}medians of {first} repetitions by turns on {} threads; ms of one call; multiply-add peak {range} GFLOP/s, the best of the same turns{on_gpus}\n",
         table(&rows),
         rayon::current_num_threads()
     )
@@ -279,7 +280,10 @@ impl BenchTrain {
         let default: &[BackendName] =
             if self.stream.is_some() { &[BackendName::Fused] } else { &[BackendName::Fused, BackendName::Flex, BackendName::Ndarray] };
         let names = if self.backend.is_empty() { default } else { &self.backend };
-        let backends: Vec<Backend> = names.iter().map(|&name| name.into()).collect();
+        let backends: Vec<Backend> = names.iter().map(|&name| name.try_into()).collect::<Result<_, _>>().context("--backend")?;
+        for &backend in &backends {
+            backend.adapter().context("--backend")?;
+        }
         match &self.stream {
             Some(config) => self.streamed(config, &backends, ui),
             None => self.in_memory(&backends, ui),
@@ -307,8 +311,8 @@ impl BenchTrain {
             let of = |s: &Streaming| {
                 let [in_memory, generation] = [&s.in_memory, &s.generation].map(|of| Summary::of(&of.rates).median);
                 let object = json!({
-                    "benchmark": "train", "stream": config.name, "network": s.network, "backend": s.backend, "batch": s.batch, "rows": s.rows,
-                    "refresh": s.refresh, "samples_per_second": s.samples_per_second(), "in_memory_samples_per_second": in_memory,
+                    "benchmark": "train", "stream": config.name, "network": s.network, "backend": s.backend, "adapter": s.adapter, "batch": s.batch,
+                    "rows": s.rows, "refresh": s.refresh, "samples_per_second": s.samples_per_second(), "in_memory_samples_per_second": in_memory,
                     "pairs_per_second": generation, "bound_samples_per_second": s.bound(), "raw_in_memory_seconds": s.in_memory.seconds,
                     "raw_generation_seconds": s.generation.seconds,
                 });

@@ -6,10 +6,9 @@ use super::{Verdict, generate, interrupt, keep_inputs};
 use crate::dataset::{Dataset, file as dataset_file};
 use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
-use crate::train::burn::Engine;
 use crate::train::checkpoint::{Losses, path_for};
 use crate::train::schedule::Job;
-use crate::train::{Backend, Outcome, train};
+use crate::train::{Backend, BackendError, Outcome, train};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -55,21 +54,30 @@ pub enum BackendName {
     Flex,
     /// burn-ndarray.
     Ndarray,
+    /// burn on a GPU through wgpu, where the program was built with --features wgpu.
+    Wgpu,
+    /// burn on a CUDA device, where the program was built with --features cuda.
+    Cuda,
 }
 
-impl From<BackendName> for Backend {
-    fn from(name: BackendName) -> Self {
-        match name {
-            BackendName::Fused => Self::Fused,
-            BackendName::Flex => Self::Burn(Engine::Flex),
-            BackendName::Ndarray => Self::Burn(Engine::Ndarray),
-        }
+impl TryFrom<BackendName> for Backend {
+    type Error = BackendError;
+
+    fn try_from(name: BackendName) -> Result<Self, BackendError> {
+        Self::named(match name {
+            BackendName::Fused => "fused",
+            BackendName::Flex => "flex",
+            BackendName::Ndarray => "ndarray",
+            BackendName::Wgpu => "wgpu",
+            BackendName::Cuda => "cuda",
+        })
     }
 }
 
 impl TrainOptions {
-    /// Reads the configuration with the number of epochs that is asked for.
+    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused before anything is made.
     pub fn configure(&self, path: &Path) -> anyhow::Result<Config> {
+        Backend::try_from(self.backend).and_then(Backend::adapter).context("--backend")?;
         let mut config = Config::load(path)?;
         if let Some(epochs) = self.epochs {
             config.train.epochs = epochs;
@@ -139,6 +147,8 @@ pub struct Trained {
     pub history: Vec<Losses>,
     pub seconds: f64,
     pub samples_per_second: f64,
+    /// Name of the GPU where one was trained on.
+    pub adapter: Option<String>,
 }
 
 impl Trained {
@@ -159,7 +169,7 @@ impl Trained {
     pub fn to_json(&self) -> Value {
         let p = &self.mlp.provenance;
         json!({
-            "network": self.mlp.shape(), "backend": p.backend, "epochs": p.epochs, "best_epoch": p.best_epoch,
+            "network": self.mlp.shape(), "backend": p.backend, "adapter": self.adapter, "epochs": p.epochs, "best_epoch": p.best_epoch,
             "training_loss": p.training_loss, "validation_loss": p.validation_loss,
             "seconds": self.seconds, "samples_per_second": self.samples_per_second,
         })
@@ -168,13 +178,14 @@ impl Trained {
     pub fn summary(&self) -> String {
         let p = &self.mlp.provenance;
         format!(
-            "{}: best validation loss {:.3e} in epoch {} of {}, {:.1} s, {:.2} M samples/s\n",
+            "{}: best validation loss {:.3e} in epoch {} of {}, {:.1} s, {:.2} M samples/s{}\n",
             self.mlp.shape(),
             p.validation_loss.unwrap_or(f64::NAN),
             p.best_epoch.unwrap_or(0),
             p.epochs.unwrap_or(0),
             self.seconds,
-            self.samples_per_second / 1e6
+            self.samples_per_second / 1e6,
+            self.adapter.as_ref().map(|name| format!(" on {name}")).unwrap_or_default()
         )
     }
 }
@@ -187,15 +198,9 @@ pub fn fit(config: &Config, dataset: &Dataset, options: &TrainOptions, checkpoin
         config: Some(config.to_json()),
         ..Provenance::default()
     };
-    let job = Job {
-        name: &config.name,
-        config: &config.train,
-        seed: config.seed,
-        backend: options.backend.into(),
-        checkpoint,
-        resume: options.resume,
-        provenance,
-    };
+    let backend = Backend::try_from(options.backend)?;
+    let adapter = backend.adapter()?;
+    let job = Job { name: &config.name, config: &config.train, seed: config.seed, backend, checkpoint, resume: options.resume, provenance };
     let progress = ui.progress("train", config.train.epochs * config.train.seeds);
     let start = Instant::now();
     let mut samples = 0;
@@ -216,7 +221,9 @@ pub fn fit(config: &Config, dataset: &Dataset, options: &TrainOptions, checkpoin
     progress.finish();
     let seconds = start.elapsed().as_secs_f64();
     match outcome? {
-        Outcome::Finished { mlp, history } => Ok(Some(Trained { mlp: *mlp, history, seconds, samples_per_second: samples as f64 / seconds })),
+        Outcome::Finished { mlp, history } => {
+            Ok(Some(Trained { mlp: *mlp, history, seconds, samples_per_second: samples as f64 / seconds, adapter }))
+        }
         Outcome::Interrupted { epochs, checkpoint } => {
             match checkpoint {
                 Some(path) => {

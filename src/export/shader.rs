@@ -53,6 +53,14 @@ pub const ENTRY: &str = "nmt_transmittance";
 /// The network itself where it answers with a share of absorbance; takes what [`ENTRY`] takes.
 pub const SHARE: &str = "nmt_share";
 
+/// The function that holds the network.
+pub fn network_function(set: FeatureSet) -> &'static str {
+    match set.answer() {
+        Answer::Sigmoid => ENTRY,
+        Answer::Fraction { .. } => SHARE,
+    }
+}
+
 impl Language {
     fn feature_source(self, set: FeatureSet) -> String {
         let text = match (self, set) {
@@ -413,11 +421,12 @@ impl Network<'_> {
     }
 
     fn head(&self, text: &mut String) {
-        let (what, name) = match self.mlp.feature_set().answer() {
-            Answer::Sigmoid => ("Transmittance in front of the fragment with features f", ENTRY),
-            Answer::Fraction { .. } => ("Share of the other fragments' absorbance that lies in front of the fragment with features f", SHARE),
+        let set = self.mlp.feature_set();
+        let what = match set.answer() {
+            Answer::Sigmoid => "Transmittance in front of the fragment with features f",
+            Answer::Fraction { .. } => "Share of the other fragments' absorbance that lies in front of the fragment with features f",
         };
-        let _ = write!(text, "\n// {what}, in [0, 1].\n{}", self.kind.language.function(name, self.mlp.feature_set().width()));
+        let _ = write!(text, "\n// {what}, in [0, 1].\n{}", self.kind.language.function(network_function(set), set.width()));
     }
 
     fn plain(&self, text: &mut String) {

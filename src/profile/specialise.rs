@@ -236,7 +236,7 @@ fn fit(mlp: &Mlp, rows: &Rows, plan: &Plan, round: u64, stop: &dyn Fn() -> bool)
         epsilon: 1e-7,
         checkpoint_every: 1,
     };
-    let mut fitted = Backend::Fused.optimiser(mlp.feature_set(), &shapes(mlp), &flat(mlp), &config);
+    let mut fitted = Backend::Fused.optimiser(mlp.feature_set(), &shapes(mlp), &flat(mlp), &config).expect("our own backend is always there");
     let mut order: Vec<u32> = (0..rows.len() as u32).collect();
     order.shuffle(&mut stream(plan.seed, PURPOSE, 1 << 60));
     let blocks = Blocks::of(rows, &order);

@@ -1,10 +1,12 @@
 //! burn's autodiff and Adam, on any of its backends: the independent opinion on what our own kernel computes.
 
-use super::{AdamMoments, Optimiser, TrainConfig, initial};
-use crate::dataset::Batch;
+use super::fused::all_blocks;
+use super::{AdamMoments, BackendError, Optimiser, TrainConfig, initial};
+use crate::dataset::{Batch, Blocks};
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer as _};
 use burn::tensor::{Device, Tensor, TensorData, activation};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A network being fitted by burn.
 pub struct BurnOptimiser {
@@ -17,43 +19,185 @@ pub struct BurnOptimiser {
     states: Vec<Option<AdamState<2>>>,
 }
 
-/// burn's backends.
+/// burn's backends that this program was built with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Engine {
     /// burn-flex, on the CPU.
     Flex,
     /// burn-ndarray, on the CPU.
     Ndarray,
+    /// burn-wgpu, on the GPU that it likes best; `CUBECL_WGPU_DEFAULT_DEVICE` names another.
+    #[cfg(feature = "wgpu")]
+    Wgpu,
+    /// burn-cuda, on the first CUDA device.
+    #[cfg(feature = "cuda")]
+    Cuda,
+}
+
+/// What an engine computes on.
+#[derive(Debug, Clone)]
+struct Opened {
+    device: Device,
+    /// Name of the GPU; none of the CPU.
+    adapter: Option<String>,
 }
 
 impl Engine {
+    /// All of them.
+    pub const ALL: &'static [Self] = &[
+        Self::Flex,
+        Self::Ndarray,
+        #[cfg(feature = "wgpu")]
+        Self::Wgpu,
+        #[cfg(feature = "cuda")]
+        Self::Cuda,
+    ];
+
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flex => "flex",
             Self::Ndarray => "ndarray",
+            #[cfg(feature = "wgpu")]
+            Self::Wgpu => "wgpu",
+            #[cfg(feature = "cuda")]
+            Self::Cuda => "cuda",
         }
     }
 
+    /// Name of the GPU that it computes on; none where that is the CPU.
+    ///
+    /// # Errors
+    /// [`BackendError::NoDevice`].
+    pub fn adapter(self) -> Result<Option<String>, BackendError> {
+        self.open().map(|opened| opened.adapter)
+    }
+
     /// Where it computes.
-    fn device(self) -> Device {
+    fn open(self) -> Result<Opened, BackendError> {
         match self {
-            Self::Flex => Device::flex(),
+            Self::Flex => Ok(Opened { device: Device::flex(), adapter: None }),
             // Deprecated by burn 0.22 in favour of flex; kept because it was asked for by name.
             #[allow(deprecated)]
-            Self::Ndarray => Device::ndarray(),
+            Self::Ndarray => Ok(Opened { device: Device::ndarray(), adapter: None }),
+            #[cfg(feature = "wgpu")]
+            Self::Wgpu => {
+                static OPENED: gpu::Once = gpu::Once::new();
+                gpu::open(&OPENED, self.name(), gpu::wgpu)
+            }
+            #[cfg(feature = "cuda")]
+            Self::Cuda => {
+                static OPENED: gpu::Once = gpu::Once::new();
+                gpu::open(&OPENED, self.name(), gpu::cuda)
+            }
         }
     }
 }
 
+/// GPUs: whatever burn says against one, as an error or in a panic, is an error here.
+#[cfg(any(feature = "wgpu", feature = "cuda"))]
+mod gpu {
+    use super::{BackendError, Device, Opened, caught};
+    use std::sync::OnceLock;
+
+    /// burn opens a device once in a process.
+    pub type Once = OnceLock<Result<Opened, BackendError>>;
+
+    /// What `device` gives, opened and with its name.
+    pub fn open(once: &Once, name: &'static str, device: fn() -> Result<Device, String>) -> Result<Opened, BackendError> {
+        once.get_or_init(|| {
+            let opened = caught(|| -> Result<Opened, String> {
+                let device = device()?;
+                let identity = device.identity().ok_or("burn gives the device no name")?;
+                Ok(Opened { device, adapter: Some(identity.name) })
+            });
+            opened.and_then(|opened| opened).map_err(|reason| BackendError::NoDevice { name, reason })
+        })
+        .clone()
+    }
+
+    #[cfg(feature = "wgpu")]
+    pub fn wgpu() -> Result<Device, String> {
+        use burn::tensor::wgpu::{WgpuBackend, WgpuInitError};
+        use wgpu::{Backend, Backends, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions};
+
+        // OpenGL only where there is nothing else: some drivers write to stderr when asked for it.
+        let instance = Instance::new(InstanceDescriptor { backends: Backends::PRIMARY, ..InstanceDescriptor::new_without_display_handle() });
+        let strong = RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
+        let api = match pollster::block_on(instance.request_adapter(&strong)).map(|adapter| adapter.get_info().backend) {
+            Ok(Backend::Vulkan) => WgpuBackend::Vulkan,
+            Ok(Backend::Metal) => WgpuBackend::Metal,
+            Ok(Backend::Dx12) => WgpuBackend::Dx12,
+            _ => WgpuBackend::Auto,
+        };
+        let unavailable = || match std::env::var("CUBECL_WGPU_DEFAULT_DEVICE") {
+            Ok(asked) => {
+                let infos = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY)).into_iter().map(|adapter| adapter.get_info());
+                let there: Vec<String> = infos.map(|info| format!("{:?} {}", info.device_type, info.name)).collect();
+                format!("CUBECL_WGPU_DEFAULT_DEVICE is '{asked}', and there are {there:?}")
+            }
+            Err(_) => "no GPU adapter; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)".to_owned(),
+        };
+        let (device, setup) = Device::wgpu_options().graphics_api(api).init_with_setup().map_err(|error| match error {
+            WgpuInitError::AdapterUnavailable { .. } => unavailable(),
+            other => other.to_string(),
+        })?;
+        // What names the adapter everywhere else means nothing to burn.
+        let adapter = setup.adapter.get_info().name;
+        match std::env::var("WGPU_ADAPTER_NAME") {
+            Ok(wanted) if !adapter.to_lowercase().contains(&wanted.to_lowercase()) => Err(format!(
+                "burn took {adapter}, and WGPU_ADAPTER_NAME is '{wanted}'; set CUBECL_WGPU_DEFAULT_DEVICE to DiscreteGpu(0), IntegratedGpu(0), Cpu, .."
+            )),
+            _ => Ok(device),
+        }
+    }
+
+    #[cfg(feature = "cuda")]
+    pub fn cuda() -> Result<Device, String> {
+        use burn::tensor::DeviceType;
+        // Asks for the driver first; everything else of burn's would panic without it.
+        Device::enumerate(DeviceType::Cuda).into_iter().next().ok_or_else(|| "no CUDA device, or no NVIDIA driver that finds it".to_owned())
+    }
+}
+
+/// The value, or the message of the panic that came in its place.
+fn caught<T>(f: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(f)).map_err(|panic| match panic.downcast::<String>() {
+        Ok(message) => *message,
+        Err(panic) => panic.downcast_ref::<&str>().copied().unwrap_or("burn panicked").to_owned(),
+    })
+}
+
+/// Rows of a trial step, at most.
+const MOST_TRIAL_ROWS: usize = 1 << 16;
+
 impl BurnOptimiser {
-    /// An optimiser at the given weights.
-    pub fn new(engine: Engine, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
+    /// An optimiser at the given weights. On a GPU it takes a step on rows of zeros first: what the driver refuses is refused here.
+    ///
+    /// # Errors
+    /// [`BackendError::NoDevice`] where the machine has nothing that the engine computes on, [`BackendError::Failed`] where the trial step fails.
+    pub fn new(engine: Engine, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Result<Self, BackendError> {
         let adam = AdamConfig::new().with_beta_1(config.beta1 as f32).with_beta_2(config.beta2 as f32).with_epsilon(config.epsilon as f32).build();
-        let (answer, device) = (set.answer(), engine.device());
-        let mut optimiser = Self { answer, shapes: shapes.to_vec(), device, adam, tensors: Vec::new(), states: Vec::new() };
+        let Opened { device, adapter } = engine.open()?;
+        let mut optimiser = Self { answer: set.answer(), shapes: shapes.to_vec(), device, adam, tensors: Vec::new(), states: Vec::new() };
+        if let Some(adapter) = adapter {
+            let failed = |reason| BackendError::Failed { name: engine.name(), adapter: adapter.clone(), reason };
+            caught(|| optimiser.trial(parameters, config.batch.min(MOST_TRIAL_ROWS))).and_then(|done| done).map_err(failed)?;
+        }
         optimiser.restore(parameters, &AdamMoments::default());
-        optimiser
+        Ok(optimiser)
+    }
+
+    /// A step on rows that weigh nothing.
+    fn trial(&mut self, parameters: &[f32], rows: usize) -> Result<(), String> {
+        self.restore(parameters, &AdamMoments::default());
+        let blocks = Blocks::zeros(self.shapes[0].0, rows);
+        let error = self.step(Batch { blocks: &blocks, order: &all_blocks(&blocks) }, 1e-3);
+        if error == 0.0 && self.parameters() == parameters {
+            Ok(())
+        } else {
+            Err(format!("rows that weigh nothing had an error of {error:e}, or moved the weights"))
+        }
     }
 
     /// `[rows, columns]` of every parameter tensor.

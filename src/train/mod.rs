@@ -153,11 +153,34 @@ pub enum BackendError {
     /// There is none of that name.
     #[error("backend '{0}': there is none of that name; there are {list}", list = Backend::NAMES.join(", "))]
     Unknown(String),
+    /// It is left out of this program.
+    #[error(
+        "backend '{0}': this program was built without it; build it with 'cargo build --release --features {0}', or choose fused, which needs no GPU"
+    )]
+    NotBuilt(&'static str),
+    /// There is nothing to compute on.
+    #[error("backend '{name}': {reason}; or choose fused, which needs no GPU")]
+    NoDevice {
+        /// The backend.
+        name: &'static str,
+        /// What it says.
+        reason: String,
+    },
+    /// The GPU takes no step.
+    #[error("backend '{name}' on {adapter}: a trial step failed: {reason}; choose a smaller batch, another driver, or fused, which needs no GPU")]
+    Failed {
+        /// The backend.
+        name: &'static str,
+        /// Name of the GPU.
+        adapter: String,
+        /// What was said against it.
+        reason: String,
+    },
 }
 
 impl Backend {
-    /// Names of all backends.
-    pub const NAMES: [&str; 3] = ["fused", "flex", "ndarray"];
+    /// Names of all backends, of those too that this program may have been built without.
+    pub const NAMES: [&str; 5] = ["fused", "flex", "ndarray", "wgpu", "cuda"];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
@@ -170,22 +193,46 @@ impl Backend {
     /// The backend of a name.
     ///
     /// # Errors
-    /// [`BackendError::Unknown`].
+    /// [`BackendError::Unknown`]; [`BackendError::NotBuilt`] where the cargo feature of that name was off.
     pub fn named(name: &str) -> Result<Self, BackendError> {
-        match name {
-            "fused" => Ok(Self::Fused),
-            "flex" => Ok(Self::Burn(Engine::Flex)),
-            "ndarray" => Ok(Self::Burn(Engine::Ndarray)),
-            _ => Err(BackendError::Unknown(name.to_owned())),
+        if name == "fused" {
+            return Ok(Self::Fused);
+        }
+        match Engine::ALL.iter().find(|engine| engine.name() == name) {
+            Some(&engine) => Ok(Self::Burn(engine)),
+            None => Err(match Self::NAMES.into_iter().find(|known| *known == name) {
+                Some(known) => BackendError::NotBuilt(known),
+                None => BackendError::Unknown(name.to_owned()),
+            }),
+        }
+    }
+
+    /// Name of the GPU that it computes on; none where that is the CPU.
+    ///
+    /// # Errors
+    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on.
+    pub fn adapter(self) -> Result<Option<String>, BackendError> {
+        match self {
+            Self::Fused => Ok(None),
+            Self::Burn(engine) => engine.adapter(),
         }
     }
 
     /// An optimiser of this kind, at the given weights and with fresh moments.
-    pub fn optimiser(self, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Box<dyn Optimiser> {
-        match self {
+    ///
+    /// # Errors
+    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on, [`BackendError::Failed`] where that takes no step.
+    pub fn optimiser(
+        self,
+        set: FeatureSet,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        config: &TrainConfig,
+    ) -> Result<Box<dyn Optimiser>, BackendError> {
+        Ok(match self {
             Self::Fused => Box::new(fused::Fused::new(set, shapes, parameters, config)),
-            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)),
-        }
+            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)?),
+        })
     }
 }
 
@@ -249,7 +296,24 @@ mod tests {
         toml::from_str("hidden = [8, 4]\nepochs = 1\nbatch = 64\nlearning_rate = 1e-3").unwrap()
     }
 
-    /// Every way to fit a network: burn's two backends, the kernel at the best and at the least SIMD level, its scalar twin.
+    /// burn's backends that can be had here. One without its device is said aloud, and a failure where `NMT_REQUIRE` names it (`gpu` for wgpu, `cuda`).
+    fn engines() -> Vec<Engine> {
+        let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
+        let mut engines = Engine::ALL.to_vec();
+        engines.retain(|engine| match engine.adapter() {
+            Ok(_) => true,
+            Err(why) => {
+                let tool = if engine.name() == "wgpu" { "gpu" } else { engine.name() };
+                assert!(!required.split(',').any(|name| name.trim() == tool), "{tool} is required: {why}");
+                println!("skipped: {why}");
+                false
+            }
+        });
+        assert!(engines.starts_with(&[Engine::Flex, Engine::Ndarray]));
+        engines
+    }
+
+    /// Every way to fit a network: burn's backends, the kernel at the best and at the least SIMD level, its scalar twin.
     fn optimisers(set: FeatureSet, shapes: &Shapes, parameters: &[f32]) -> Vec<(&'static str, Box<dyn Optimiser>)> {
         let fused = |level| Box::new(Fused::at_level(level, set, shapes, parameters, &config())) as Box<dyn Optimiser>;
         let mut all: Vec<(&'static str, Box<dyn Optimiser>)> = vec![
@@ -257,8 +321,8 @@ mod tests {
             ("fused", fused(Level::new())),
             ("fused, baseline", fused(Level::baseline())),
         ];
-        for engine in [Engine::Flex, Engine::Ndarray] {
-            all.push((engine.name(), Backend::Burn(engine).optimiser(set, shapes, parameters, &config())));
+        for engine in engines() {
+            all.push((engine.name(), Backend::Burn(engine).optimiser(set, shapes, parameters, &config()).unwrap()));
         }
         all
     }
@@ -358,7 +422,7 @@ mod tests {
                 assert!(off(&shapes, &gradient, &exact) < 1e-5, "{name} {hidden:?}: {}", off(&shapes, &gradient, &exact));
             }
             let half = Batch { order: &order[..150], ..batch };
-            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).gradient(half);
+            let (_, other) = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap().gradient(half);
             assert!(off(&shapes, &other, &exact) > 1e-5, "the control passed");
         }
     }
@@ -371,16 +435,31 @@ mod tests {
         let blocks = blocks(FeatureSet::Recentred, 4096);
         let order = all_blocks(&blocks);
         let path = |backend: Backend, rate: f64| -> Vec<f64> {
-            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config());
+            let mut optimiser = backend.optimiser(FeatureSet::Recentred, &shapes, &parameters, &config()).unwrap();
             (0..100).map(|step| optimiser.step(Batch { blocks: &blocks, order: &order[16 * (step % 16)..][..16] }, rate)).collect()
         };
         let far = |a: &[f64], b: &[f64]| {
             a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, |m: f64, e| if e.is_nan() { f64::INFINITY } else { m.max(e) })
         };
-        let flex = Backend::Burn(Engine::Flex);
-        let [ours, theirs] = [Backend::Fused, flex].map(|b| path(b, 1e-3));
-        assert!(far(&ours, &theirs) < 1e-4, "{}", far(&ours, &theirs));
-        assert!(far(&ours, &path(flex, 2e-3)) > 1e-4);
+        let ours = path(Backend::Fused, 1e-3);
+        for engine in engines() {
+            let [theirs, other] = [1e-3, 2e-3].map(|rate| path(Backend::Burn(engine), rate));
+            assert!(far(&ours, &theirs) < 1e-4, "{}: {}", engine.name(), far(&ours, &theirs));
+            assert!(far(&ours, &other) > 1e-4, "{}: the control passed", engine.name());
+        }
+    }
+
+    /// A GPU has a name and takes its trial step, and what is no GPU has none; a trial that fails says whose it was.
+    #[test]
+    fn adapters_have_names() {
+        assert_eq!(Backend::Fused.adapter(), Ok(None));
+        for engine in engines() {
+            let adapter = engine.adapter().unwrap();
+            assert_eq!(adapter.is_none(), matches!(engine, Engine::Flex | Engine::Ndarray), "{adapter:?}");
+            assert!(adapter.is_none_or(|name| !name.is_empty()), "{}", engine.name());
+        }
+        let error = BackendError::Failed { name: "wgpu", adapter: "llvmpipe".into(), reason: "no memory".into() }.to_string();
+        assert!(error.starts_with("backend 'wgpu' on llvmpipe: a trial step failed: no memory; "), "{error}");
     }
 
     #[test]
@@ -391,7 +470,7 @@ mod tests {
         let order = all_blocks(&blocks);
         let [one, three] = [1, 3].map(|threads| {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
-                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config());
+                let mut optimiser = Backend::Fused.optimiser(FeatureSet::Paper, &shapes, &parameters, &config()).unwrap();
                 for _ in 0..5 {
                     optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2);
                 }
@@ -419,7 +498,7 @@ mod tests {
             };
             let blocks = Blocks::of(&rows, &(0..n as u32).collect::<Vec<_>>());
             let order = all_blocks(&blocks);
-            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config());
+            let mut optimiser = Backend::Fused.optimiser(set, &shapes, &parameters, &config()).unwrap();
             for _ in 0..50 {
                 assert!(optimiser.step(Batch { blocks: &blocks, order: &order }, 1e-2).is_finite());
             }
@@ -467,15 +546,22 @@ mod tests {
         }
     }
 
-    /// Every name gives a backend, which gives it back, in files too.
+    /// Every name is known: of what is built in it gives the backend, which gives it back, in files too; of what is not, how to build it.
     #[test]
     fn names_of_backends() {
         for name in Backend::NAMES {
-            let backend = Backend::named(name).unwrap();
-            assert_eq!((backend.name(), String::from(backend).as_str()), (name, name));
-            assert_eq!(serde_json::from_value::<Backend>(serde_json::to_value(backend).unwrap()).unwrap(), backend);
+            match Backend::named(name) {
+                Ok(backend) => {
+                    assert_eq!((backend.name(), String::from(backend).as_str()), (name, name));
+                    assert_eq!(serde_json::from_value::<Backend>(serde_json::to_value(backend).unwrap()).unwrap(), backend);
+                }
+                Err(error) => {
+                    assert!(name == "wgpu" && !cfg!(feature = "wgpu") || name == "cuda" && !cfg!(feature = "cuda"), "{name}");
+                    assert!(error.to_string().contains(&format!("--features {name}")), "{error}");
+                }
+            }
         }
-        assert!(Backend::named("jax").unwrap_err().to_string().ends_with("there are fused, flex, ndarray"));
+        assert!(Backend::named("jax").unwrap_err().to_string().ends_with("there are fused, flex, ndarray, wgpu, cuda"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses};
 use super::feed::Feed;
-use super::{AdamMoments, Backend, TrainConfig, TrainConfigError, initial};
+use super::{AdamMoments, Backend, BackendError, TrainConfig, TrainConfigError, initial};
 use crate::dataset::{Dataset, DatasetError, Rows};
 use crate::model::{Mlp, Provenance, ShapeError};
 use crate::numeric::file::FileError;
@@ -14,6 +14,9 @@ pub enum TrainError {
     /// The configuration is invalid.
     #[error(transparent)]
     Config(#[from] TrainConfigError),
+    /// The backend cannot be had.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
     /// The checkpoint cannot be continued from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -127,7 +130,7 @@ fn fit(
     let optimiser = |parameters: &[f32]| backend.optimiser(set, &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
-    let mut fitted = optimiser(&parameters);
+    let mut fitted = optimiser(&parameters)?;
     let mut done = Checkpoint {
         format: "nmt-checkpoint".to_owned(),
         version: CHECKPOINT_VERSION,
@@ -160,7 +163,7 @@ fn fit(
     for epoch in first..=last {
         let (index, of_network) = ((epoch - 1) / config.epochs, (epoch - 1) % config.epochs);
         if of_network == 0 && epoch > 1 {
-            fitted = optimiser(&initial::glorot(&shapes, seed + index));
+            fitted = optimiser(&initial::glorot(&shapes, seed + index))?;
         }
         let rate = |step| config.learning_rate_at(of_network * steps_of_epoch + step, config.epochs * steps_of_epoch);
         let Some(training) = feed.epoch(epoch, epoch < last, fitted.as_mut(), &rate, stop)? else {
