@@ -8,7 +8,7 @@ use crate::gpu::list::{DeviceList, Passes};
 use crate::gpu::method::Composite;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
-use crate::oit::neural::Neural;
+use crate::oit::neural::{Neural, Skip};
 use crate::oit::{self, Accumulated, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
@@ -215,6 +215,8 @@ pub struct Setting<'a> {
     pub context: Context,
     /// How often.
     pub plan: Plan,
+    /// Which fragments networks are run for.
+    pub skip: Skip,
 }
 
 /// Runs a method once and says how long both passes took together, and each where they are apart \[s\].
@@ -271,7 +273,7 @@ impl Setting<'_> {
         let networks: Vec<Option<Neural>> = contenders
             .iter()
             .map(|c| match c {
-                Contender::Network(mlp) => Some(Neural::new((**mlp).clone())),
+                Contender::Network(mlp) => Some(Neural::new((**mlp).clone()).with_skip(self.skip)),
                 Contender::Method(_) => None,
             })
             .collect();
@@ -382,7 +384,7 @@ impl Setting<'_> {
                             left_out.push(LeftOut::new(contender.name(), format!("{}: the adapter has no f16", format.name()), true));
                             continue;
                         }
-                        match MethodShader::neural(mlp, format) {
+                        match MethodShader::neural(mlp, format).map(|shader| shader.with_skip(self.skip)) {
                             Ok(shader) => {
                                 let about = About {
                                     bits: neural.bits_per_pixel(),
@@ -550,7 +552,7 @@ mod tests {
     fn cpu_rows_are_complete() {
         let list = list();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN };
+        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
         let table = setting.on_cpu("this CPU", &contenders(), &|_| {}).unwrap();
         assert_eq!((table.costs.len(), table.left_out.len()), (4, 0));
         assert!(table.costs.windows(2).all(|c| table.time(&c[0]) <= table.time(&c[1])));
@@ -571,7 +573,7 @@ mod tests {
         let Some(gpu) = crate::gpu::tests::gpu() else { return };
         let list = list();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN };
+        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
         let table = setting.on_gpu(gpu, &contenders(), &[Format::Wgsl, Format::WgslPlain], &|_| {}).unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
         assert!(names.len() == 5 && names.contains(&NONE) && names.iter().filter(|n| **n == "neural:r").count() == 2, "{names:?}");
@@ -596,7 +598,7 @@ mod tests {
         let mut weights = vec![1.0; list.len()];
         weights[3] = f64::NAN;
         let given = Given { name: "given".to_owned(), bits: 1, transmittance: true, composite: Composite::Normalised, weights };
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN };
+        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
         let cost = setting.cost(&given, "none", Clock::Wall).unwrap();
         assert!(cost.nonfinite == 1 && cost.image_mse.unwrap().is_nan() && cost.transmittance_mse.unwrap().is_nan());
     }
@@ -605,14 +607,14 @@ mod tests {
     fn errors_say_what_is_wrong() {
         let empty = FragmentList::new(vec![0, 0], vec![], vec![], None).unwrap();
         let truth = Truth::new(&empty, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN };
+        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
         assert!(setting.on_cpu("", &[], &|_| {}).unwrap_err().to_string().contains("no fragments"));
         let no = Setting { plan: Plan { repeat: 0, ..PLAN }, ..setting };
         assert!(no.on_cpu("", &[], &|_| {}).unwrap_err().to_string().contains("repetitions"));
         // Without planes one weight cannot be had; the others can.
         let list = FragmentList::new(vec![0, 2], vec![1.0, 2.0], vec![0.5, 0.5], None).unwrap();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN };
+        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
         let both = ["weighted-blended:mb13-10", "moment-power-4"].map(|n| Contender::Method(oit::parse(n).unwrap()));
         let table = setting.on_cpu("", &both, &|_| {}).unwrap();
         assert!(

@@ -494,6 +494,129 @@ mod tests {
         compare::<8>(FeatureSet::Recentred8);
     }
 
+    /// `nmt_hidden_weight` and `nmt_first_hidden_depth` against their scalar twins and the truth, for adversarial pixels, 4, 6 and 8 moments. No fragment and all behind it
+    /// weigh more in f64 than the shader says, asked about it or about its depth; what the f64 twin hides with twice the noise and a weight of a tenth less, the shader hides; the depth is the f32 twin's to 1e-5.
+    /// `nmt_visible_transmittance` is made of these to the bit, and each switch turns off its own rule alone. Control: with a quarter of the share behind, weights are too small.
+    #[test]
+    fn shaders_hide_what_their_twin_hides() {
+        use crate::export::visible::{FAINT_SWITCH, HIDDEN_SWITCH};
+        use crate::features::visible::{FAINT, HIDDEN, Noise, first_hidden_depth, hidden_weight, most_behind};
+        use crate::features::{passes, recentred};
+        fn compare<const K: usize>(set: FeatureSet, pixels: usize) {
+            let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
+            let list = passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
+            let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
+            for format in [Format::Wgsl, Format::Glsl] {
+                let text = source(&mlp, format);
+                let off = |name: &str, value: f32| {
+                    let number = format!("{value:?}");
+                    let at = text.find(&format!("{name} = {number}")).or_else(|| text.find(&format!("{name}: f32 = {number}"))).unwrap();
+                    let end = at + text[at..].find(';').unwrap();
+                    format!("{}{}{}", &text[..at], text[at..end].replace(&number, "0.0"), &text[end..])
+                };
+                let halved = text.replace("1.00001 * min(share1", "0.25 * min(share1");
+                assert_ne!(halved, text);
+                let modules = [text.clone(), off(FAINT_SWITCH, FAINT), off(HIDDEN_SWITCH, HIDDEN), halved].map(|text| parse(format, &text).unwrap());
+                let one = |module: usize, name: &str, arguments: Vec<Value<1>>| {
+                    Interpreter::new(&modules[module]).call(name, arguments).unwrap().flatten().unwrap()[0]
+                };
+                let (mut weighed, mut hidden, mut faint, mut plain, mut controls) = (0, 0, 0, 0, 0);
+                for p in 0..list.pixels() {
+                    let pixel = list.pixel(p);
+                    let n = pixel.len();
+                    let seen: Vec<Seen<f32>> = pixel
+                        .view_z
+                        .iter()
+                        .zip(pixel.alpha)
+                        .map(|(&view_z, &alpha)| Seen { view_z, z: recentred::moment_depth(view_z, range), absorbance: recentred::absorbance(alpha) })
+                        .collect();
+                    let mut sums = PixelSums::<f32, K>::default();
+                    seen.iter().for_each(|&s| sums.add(s));
+                    if n < 5 || sums.nearest == sums.farthest {
+                        continue;
+                    }
+                    let ends = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f32>(v, range));
+                    let from = one(0, "nmt_first_hidden_depth", [sums.b0, sums.b[0], sums.b[1]].map(Value::Uniform).to_vec());
+                    let twin = first_hidden_depth(sums.b0, sums.b[0], sums.b[1]);
+                    assert!(near(from, twin, 1e-5) || (from > 1e38 && twin > 1e38), "{from} for {twin}");
+                    let exact: Vec<[f64; 2]> = seen
+                        .iter()
+                        .map(|s| {
+                            let z: f64 = recentred::moment_depth(s.view_z, range);
+                            [z, s.absorbance.into()]
+                        })
+                        .collect();
+                    let [z0, z1] = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f64>(v, range));
+                    let (c, h) = (0.5 * (z0 + z1), (0.5 * (z1 - z0)).max(1e-8));
+                    // Long pixels are looked at here and there, to keep the test short.
+                    for (i, s) in seen.iter().enumerate().step_by(1 + n / 12) {
+                        let others32 = sums.b0 - s.absorbance;
+                        let end = s.view_z == sums.nearest || s.view_z == sums.farthest || others32 <= 1e-6 * sums.b0;
+                        let head = [s.z, s.absorbance, ends[0], ends[1], n as f32, sums.b0];
+                        let weighing: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
+                        let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
+                        let looking: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
+                        let answers = [0, 1, 2].map(|module| one(module, "nmt_visible_transmittance", looking.clone()).to_bits());
+                        let whole = one(0, "nmt_fragment_transmittance", looking).to_bits();
+                        let is_faint = !end && sums.b0 <= FAINT;
+                        let mut is_hidden = false;
+                        if !end && s.z >= from {
+                            let weight = one(0, "nmt_hidden_weight", weighing.clone());
+                            is_hidden = weight <= HIDDEN;
+                            // By view depth, which says what is in front: moment depths may tie.
+                            let behind = |j: usize| pixel.view_z[j] >= s.view_z;
+                            let front: f64 = (0..n).filter(|&j| !behind(j)).map(|j| exact[j][1]).sum();
+                            let absorbed: f64 = (0..n).filter(|&j| behind(j)).map(|j| exact[j][1]).sum();
+                            let least = (-front).exp() * absorbed.min(n as f64 - 2.0);
+                            assert!(f64::from(weight) >= least * (1.0 - 1e-6), "{weight} for {least}");
+                            // A depth with nothing of its own, for all that lies from there on.
+                            let mut depth = weighing.clone();
+                            depth[1] = Value::Uniform(0.0);
+                            let depth = one(0, "nmt_hidden_weight", depth);
+                            assert!(f64::from(depth) >= least * (1.0 - 1e-6), "{depth} for {least} from a depth on");
+                            weighed += 1;
+                            controls += usize::from(f64::from(one(3, "nmt_hidden_weight", weighing)) < least);
+                            let others: f64 = (0..n).filter(|&j| j != i).map(|j| exact[j][1]).sum();
+                            let place = |z: f64| ((z - c) / h).clamp(-1.0, 1.0);
+                            let m: [f64; 4] = std::array::from_fn(|k| {
+                                (0..n).filter(|&j| j != i).map(|j| exact[j][1] * place(exact[j][0]).powi(k as i32 + 1)).sum::<f64>() / others
+                            });
+                            let noise = Noise::<f32>::of(n as u32, sums.b0, others32, c as f32, h as f32);
+                            let noise = Noise {
+                                moments: 2.0 * f64::from(noise.moments),
+                                reach: noise.reach.into(),
+                                position: 2.0 * f64::from(noise.position),
+                                depth: 2.0 * f64::from(noise.depth),
+                            };
+                            let twin = hidden_weight(others, exact[i][1], n as u32, most_behind(place(exact[i][0]), m, &noise), &noise);
+                            assert!(is_hidden || twin > 0.9 * f64::from(HIDDEN), "{weight} for {twin}");
+                        }
+                        // Exponentials are a few ulp apart; what the network answers is the same call.
+                        let is = |found: u32, depth: Option<f32>| match depth {
+                            Some(depth) => near(f32::from_bits(found), (-depth).exp().min(1.0), 1e-6 * (-depth).exp()),
+                            None => found == whole,
+                        };
+                        let expected = match () {
+                            () if is_faint => [Some(0.5 * others32), None, Some(0.5 * others32)],
+                            () if is_hidden => [Some(others32), Some(others32), None],
+                            () => [None; 3],
+                        };
+                        let right = answers.into_iter().zip(expected).all(|(found, depth)| is(found, depth));
+                        assert!(right, "{format:?}: {:?} for {expected:?}, faint {is_faint}, hidden {is_hidden}", answers.map(f32::from_bits));
+                        hidden += usize::from(is_hidden);
+                        faint += usize::from(is_faint);
+                        plain += usize::from(!is_faint && !is_hidden);
+                    }
+                }
+                println!("{format:?} K = {K}: {weighed} weighed, {hidden} hidden, {faint} faint, {plain} plain, {controls} controls");
+                assert!(weighed > 50 && hidden > 20 && faint > 20 && plain > 100 && controls > 2, "{weighed} {hidden} {faint} {plain} {controls}");
+            }
+        }
+        compare::<4>(FeatureSet::Recentred, 700);
+        compare::<6>(FeatureSet::Recentred6, 300);
+        compare::<8>(FeatureSet::Recentred8, 300);
+    }
+
     /// Whether two numbers are no further apart than that; false for NaN.
     fn near(a: f32, b: f32, bar: f32) -> bool {
         (a - b).abs() <= bar

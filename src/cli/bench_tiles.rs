@@ -1,13 +1,15 @@
 //! `nmt bench tiles`
 
 use super::Verdict;
+use super::predict::SkipName;
 use super::scene::{SceneOptions, load};
 use super::ui::{Ui, table};
 use crate::bench::Summary;
-use crate::bench::tiles::{FrameSamples, Frames, Way, frames};
+use crate::bench::tiles::{FrameSamples, Frames, Work, frames};
 use crate::export::Format;
 use crate::gpu::{Gpu, MethodShader};
 use crate::model::file;
+use crate::oit::neural::Skip;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -21,6 +23,9 @@ pub struct BenchTiles {
     /// Networks.
     #[arg(long, value_name = "MODEL.json", num_args = 1.., required = true)]
     model: Vec<PathBuf>,
+    /// Which fragments to run the network for.
+    #[arg(long, value_enum, num_args = 1.., default_values = ["none", "exact", "visible"])]
+    skip: Vec<SkipName>,
     #[command(flatten)]
     options: SceneOptions,
     /// Repetitions; what is compared takes turns in each.
@@ -37,6 +42,7 @@ impl BenchTiles {
         for path in &self.model {
             methods.push(MethodShader::neural(&file::load(path)?, Format::Wgsl)?);
         }
+        let skips: Vec<Skip> = self.skip.iter().map(|&skip| skip.into()).collect();
         let gpu = Gpu::shared()?;
         let progress = ui.progress("bench", (self.fragments.len() * methods.len() * self.repeat) as u64);
         let mut done = 0;
@@ -46,7 +52,7 @@ impl BenchTiles {
             for method in &methods {
                 let range = method.depth_range(&list, None, None)?;
                 let told = |n| progress.set(done + n, format!("{scene}, {}", method.name));
-                results.push((scene, frames(gpu, &list, method, range, self.repeat, &told)?));
+                results.push((scene, frames(gpu, &list, method, range, &skips, self.repeat, &told)?));
                 done += self.repeat as u64;
             }
         }
@@ -62,40 +68,63 @@ impl BenchTiles {
 }
 
 fn sample_json(scene: &str, frames: &Frames, s: &FrameSamples) -> Value {
+    let pixels = s.work.and_then(|w| w.pixels);
     json!({
-        "benchmark": "tiles", "scene": scene, "method": frames.method, "adapter": frames.adapter, "passes": s.way.name(),
-        "tiles_network": frames.tiles.network, "tiles_exact": frames.tiles.exact,
+        "benchmark": "tiles", "scene": scene, "method": frames.method, "adapter": frames.adapter, "passes": s.way.name(), "skip": s.way.skip(),
+        "fragments": frames.fragments, "fragments_asked": s.work.map(|w| w.asked),
+        "pixels_network": pixels.map(|p| p.network), "pixels_hiding": pixels.map(|p| p.hiding), "pixels_known": pixels.map(|p| p.known),
+        "greatest_change": s.work.map(|w| w.greatest_change), "flip_change": s.work.map(|w| w.flip_change), "speedup": frames.speedup(s),
         "seconds_accumulate": Summary::of(&s.accumulate).median, "seconds_weights": Summary::of(&s.weights).median,
         "raw_seconds_accumulate": s.accumulate, "raw_seconds_weights": s.weights,
     })
 }
 
 fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
-    let head = ["scene", "method", "passes", "pass 1 ms", "pass 2 ms", "min", "max", "tiles with network", "ratio"];
+    let head = [
+        "scene",
+        "method",
+        "passes",
+        "skip",
+        "pass 1 ms",
+        "pass 2 ms",
+        "min",
+        "max",
+        "against none",
+        "pixels with network",
+        "fragments avoided",
+        "change",
+        "FLIP",
+    ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for (scene, frames) in results {
-        let of = |way| frames.samples.iter().find(|s| s.way == way).map(|s| Summary::of(&s.weights).median);
-        let every = of(Way::EveryTile).unwrap_or(f64::NAN);
         for s in &frames.samples {
             let (first, second) = (Summary::of(&s.accumulate), Summary::of(&s.weights));
-            let tiles = frames.tiles;
-            let all = tiles.network + tiles.exact;
+            let of = |text: &dyn Fn(&Work) -> String| s.work.as_ref().map_or_else(|| "-".to_owned(), text);
             lines.push(vec![
                 (*scene).to_owned(),
                 frames.method.clone(),
                 s.way.name().to_owned(),
+                match s.way.skip() {
+                    Skip::None => "none",
+                    Skip::Exact => "exact",
+                    Skip::Visible => "visible",
+                }
+                .to_owned(),
                 format!("{:.3}", 1e3 * first.median),
                 format!("{:.3}", 1e3 * second.median),
                 format!("{:.3}", 1e3 * second.min),
                 format!("{:.3}", 1e3 * second.max),
-                if s.way == Way::TilesApart { format!("{} of {all}", tiles.network) } else { "-".to_owned() },
-                format!("{:.2}", second.median / every),
+                frames.speedup(s).map_or_else(|| "-".to_owned(), |x| format!("{x:.2} x")),
+                of(&|w| w.pixels.map_or_else(|| "all".to_owned(), |p| format!("{} of {}", p.network, p.network + p.known))),
+                of(&|w| format!("{:.1} %", 100.0 * (1.0 - w.asked as f64 / frames.fragments.max(1) as f64))),
+                of(&|w| format!("{:.1e}", w.greatest_change)),
+                of(&|w| format!("{:.1e}", w.flip_change)),
             ]);
         }
     }
     format!(
-        "{}{}, by {}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling tiles apart; ratio of pass 2 to compute over every \
-         tile\n",
+        "{}{}, by {}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling pixels apart; speed of pass 2 against compute passes \
+         that skip nothing, greatest change of a channel (1/512 = 2.0e-3) and FLIP against their image\n",
         table(&lines),
         gpu.name(),
         if gpu.stamps() { "timestamps" } else { "the clock" }

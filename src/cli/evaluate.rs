@@ -124,7 +124,7 @@ impl Evaluate {
             let progress = ui.progress("evaluate", methods.len() as u64);
             let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-            for (index, Asked { method, demanded, shader, .. }) in methods.iter().enumerate() {
+            for (index, Asked { method, demanded, shader, skips }) in methods.iter().enumerate() {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
                 let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
@@ -141,7 +141,10 @@ impl Evaluate {
                 let mut drawn = None;
                 if let (Some(gpu), Some((image, _))) = (gpu, &judged.picture) {
                     let judged = match shader {
-                        Some(Ok(shader)) => gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), image).map_err(|e| e.to_string()),
+                        Some(Ok(shader)) => {
+                            let skip = if *skips { self.skip.into() } else { Skip::Exact };
+                            gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), skip, image).map_err(|e| e.to_string())
+                        }
                         Some(Err(why)) => Err(why.to_string()),
                         None => Err(format!("{} has no shader", method.name())),
                     };

@@ -2,9 +2,10 @@
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
 use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, Storage};
-use crate::gpu::tiles::{Skip, TilePasses};
+use crate::gpu::tiles::TilePasses;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::oit::Context;
+use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
 use serde::{Deserialize, Serialize};
 
@@ -78,15 +79,16 @@ fn render(
     context: Context,
     background: [f32; 3],
     storage: Storage,
+    skip: Skip,
 ) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
     if !is_drawn(gpu, storage) {
         let passes = TilePasses::new(gpu, list, method, range, background)?;
-        passes.run(gpu, Skip::Tiles)?;
-        return passes.render(gpu);
+        passes.run(gpu, skip)?;
+        return passes.render(gpu, skip);
     }
     let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(gpu, &drawing, method, range, background, storage)?;
+    let pipeline = Pipeline::new(gpu, &drawing, &method.clone().with_skip(skip), range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
 }
@@ -96,7 +98,7 @@ pub fn is_drawn(gpu: &Gpu, storage: Storage) -> bool {
     gpu.blends_f32() || !storage.blends_f32()
 }
 
-/// Draws a method on the GPU and compares its image with the CPU's and the exact one.
+/// Draws a method on the GPU and compares its image with the CPU's and the exact one. A network is run for the fragments that `skip` says.
 ///
 /// # Errors
 /// [`EvaluateError::Gpu`], and why the list makes no image.
@@ -106,10 +108,11 @@ pub fn judge(
     truth: &Truth<'_>,
     context: Context,
     storage: Storage,
+    skip: Skip,
     cpu: &Image,
 ) -> Result<GpuJudged, EvaluateError> {
     let list = truth.list();
-    let rendered = render(gpu, method, list, context, truth.background().map(|c| c as f32), storage)?;
+    let rendered = render(gpu, method, list, context, truth.background().map(|c| c as f32), storage, skip)?;
     let image = Image::new(rendered.width, rendered.height, rendered.pixels.iter().map(|p| p.map(f64::from)).collect())?;
     let differences = channel_differences(&image, cpu)?;
     let map = flip(cpu, &image)?;
@@ -170,11 +173,11 @@ mod tests {
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
         let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
         let cpu = truth.judge(&Neural::new(mlp), Context::default()).unwrap().picture.unwrap().0;
-        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, &cpu).unwrap().result;
+        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, Skip::Exact, &cpu).unwrap().result;
         assert!(found.channel_difference_worst <= 1e-5 && found.flip_mean_to_cpu <= 1e-4 && found.image_mse <= 1e-9, "{found:?}");
         assert_eq!((found.image_nonfinite, found.adapter), (0, gpu.name()));
         let other = Image::new(40, 30, cpu.pixels().iter().map(|p| [p[1], p[2], p[0]]).collect()).unwrap();
-        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, &other).unwrap().result;
+        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, Skip::Exact, &other).unwrap().result;
         assert!(found.channel_difference_999 > 0.1 && found.flip_mean_to_cpu > 0.01, "{found:?}");
     }
 }

@@ -9,9 +9,9 @@ use crate::features::recentred::{
 use std::fmt::Write;
 
 /// Writes lines of any language.
-struct Writer {
+pub(super) struct Writer {
     language: Language,
-    text: String,
+    pub(super) text: String,
     /// Blocks that are open inside of the function.
     depth: usize,
 }
@@ -27,48 +27,48 @@ enum Hand {
 
 impl Writer {
     /// A constant that keeps its f32 bits.
-    fn number(&self, x: f64) -> String {
+    pub(super) fn number(&self, x: f64) -> String {
         self.language.literal(x as f32)
     }
 
-    fn new(language: Language) -> Self {
+    pub(super) fn new(language: Language) -> Self {
         Self { language, text: String::new(), depth: 0 }
     }
 
-    fn line(&mut self, line: &str) {
+    pub(super) fn line(&mut self, line: &str) {
         let _ = writeln!(self.text, "{line}");
     }
 
     /// A statement.
-    fn statement(&mut self, statement: &str) {
+    pub(super) fn statement(&mut self, statement: &str) {
         self.line(&format!("    {}{statement}", "    ".repeat(self.depth)));
     }
 
     /// Opens a block that runs under a condition.
-    fn open(&mut self, condition: &str) {
+    pub(super) fn open(&mut self, condition: &str) {
         self.statement(&format!("if ({condition}) {{"));
         self.depth += 1;
     }
 
-    fn close(&mut self) {
+    pub(super) fn close(&mut self) {
         self.depth -= 1;
         self.statement("}");
     }
 
     /// A value that does not change.
-    fn bind(&mut self, name: &str, value: &str) {
+    pub(super) fn bind(&mut self, name: &str, value: &str) {
         let head = if self.language == Language::Wgsl { "let" } else { "float" };
         self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// A value that does.
-    fn variable(&mut self, name: &str, value: &str) {
+    pub(super) fn variable(&mut self, name: &str, value: &str) {
         let head = if self.language == Language::Wgsl { "var" } else { "float" };
         self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// `condition ? yes : no`, both computed.
-    fn select(&self, condition: &str, yes: &str, no: &str) -> String {
+    pub(super) fn select(&self, condition: &str, yes: &str, no: &str) -> String {
         match self.language {
             Language::Wgsl => format!("select({no}, {yes}, {condition})"),
             Language::Glsl | Language::Hlsl => format!("({condition} ? {yes} : {no})"),
@@ -76,7 +76,7 @@ impl Writer {
     }
 
     /// Head of a function; a parameter with a number is an array of so many, and so is the result.
-    fn function(&mut self, name: &str, parameters: &[(&str, usize)], result: usize) {
+    pub(super) fn function(&mut self, name: &str, parameters: &[(&str, usize)], result: usize) {
         let mut list: Vec<String> = parameters
             .iter()
             .map(|&(name, n)| match (self.language, n) {
@@ -101,7 +101,7 @@ impl Writer {
     }
 
     /// Ends a function with a number.
-    fn give(&mut self, value: &str) {
+    pub(super) fn give(&mut self, value: &str) {
         self.statement(&format!("return {value};"));
         self.line("}");
     }
@@ -131,7 +131,7 @@ impl Writer {
 }
 
 /// What the fragment's own data and what pass 1 left are called, in the order of parameters.
-const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
+pub(super) const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
 
 /// Constant of what storage does to moments.
 pub const ROUNDING: &str = "NMT_ROUNDING";
@@ -259,7 +259,7 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
 }
 
 /// c, 1/h and m1..mk.
-fn recentred_moments(w: &mut Writer, k: usize) {
+pub(super) fn recentred_moments(w: &mut Writer, k: usize) {
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
     let least = w.number(LEAST_HALF_RANGE);
     w.bind("h1", &format!("1.0 / max(0.5 * (z_farthest - z_nearest), {least})"));

@@ -1,6 +1,6 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
 
-use super::{ExportError, recentred};
+use super::{ExportError, recentred, visible};
 use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE, MomentDepthKind};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
@@ -51,7 +51,7 @@ pub struct Kind {
 pub const ENTRY: &str = "nmt_transmittance";
 
 /// The network itself where it answers with a share of absorbance; takes what [`ENTRY`] takes.
-pub(super) const SHARE: &str = "nmt_share";
+pub const SHARE: &str = "nmt_share";
 
 /// The function that holds the network.
 pub fn network_function(set: FeatureSet) -> &'static str {
@@ -269,6 +269,7 @@ pub fn source(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
     }
     if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
         text += &recentred::answer(kind.language, mlp.feature_set());
+        text += &visible::source(kind.language, mlp.feature_set());
     }
     Ok(text)
 }

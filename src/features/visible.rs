@@ -25,6 +25,10 @@
 //! are answered exactly, D⁺ = 0 and D⁻ ≤ 1/1024, and the error is at most 1/512 wherever U ≥ 1/2. Exact answers give U = 1 − e^−b_0, at least 0.99 where one looks; the
 //! CPU adds U up and asks the network after all where its answers to the others leave less than a half. (Against a network's own answers to hidden fragments nothing can be proved:
 //! it may claim that they shine through. The figures say what ours do.)
+//!
+//! The same bound asked of a depth instead of a fragment, with A = 0 and the moments of the whole pixel, holds for all that lies at or behind that depth at once: T ≤ exp(−b_0 (1 − P)), the
+//! absorbances there sum to b_0 P at most, and without the ends there are n − 2 fragments at most. So a shader that goes through a pixel's list looks for one depth and compares fragments with it.
+//! What cannot go back has less: U is at least the opacity of the nearest fragment, whose answer is 1, so that the bound holds without condition where that is 1/2 or more.
 
 use crate::numeric::Real;
 
@@ -125,11 +129,17 @@ pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
     (b1 + (least * (b2 * b0 - b1 * b1).max(R::ZERO) / (b0 - least)).sqrt()) / b0
 }
 
-/// Whether a fragment at [`first_hidden_depth`] or behind is hidden: `others` is b_0', `absorbance` its own, `count` the pixel's n, `behind` what [`most_behind`] says.
-pub fn is_hidden<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
+/// The most that the hidden fragments of a pixel may weigh, Σ a T, if this one at [`first_hidden_depth`] or behind is the nearest of them: `others` is b_0', `absorbance`
+/// its own, `count` the pixel's n, `behind` what [`most_behind`] says.
+pub fn hidden_weight<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> R {
     let least_depth = others * (R::ONE - behind) - noise.depth;
     let beta = others * behind + absorbance;
-    (-least_depth).exp() * beta.min(R::from_f64(f64::from(count) - 2.0)) <= R::from_f32(HIDDEN)
+    (-least_depth).exp() * beta.min(R::from_f64(f64::from(count) - 2.0))
+}
+
+/// Whether a fragment at [`first_hidden_depth`] or behind is hidden; see [`hidden_weight`].
+pub fn is_hidden<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
+    hidden_weight(others, absorbance, count, behind, noise) <= R::from_f32(HIDDEN)
 }
 
 #[cfg(test)]

@@ -2,8 +2,11 @@
 
 use super::device::GpuError;
 use crate::export::Format;
+use crate::export::shader::SHARE;
+use crate::features::recentred::MOST_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
+use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
 
 /// How a pixel's colour is made of Σ a w C and Σ a w.
@@ -32,7 +35,10 @@ pub enum Composite {
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
 /// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
 /// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
-/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers.
+/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers;
+/// - with it `fn oit_end_weight`: the same number where a fragment is an end of its pixel or has next to nothing beside it, else −1;
+/// - where a network is spared what cannot be seen, `fn oit_faint_weight(f, p)`, `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
+///   [`visible`](crate::features::visible) has them.
 ///
 /// No name of it but these begins with `oit_`.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,10 +89,30 @@ fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{
     return nmt_recentred(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
         array<f32, {k}>({sums}))[{width}];
 }}
+
+fn oit_end_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    let others = clamp(p.sums[0] - f.absorbance, 0.0, {most:?});
+    let first = f.v == p.nearest || !(others > 1e-6 * p.sums[0]);
+    return select(-1.0, min(exp(-select(others, 0.0, first)), 1.0), first || f.v == p.farthest);
+}}
+
+fn oit_faint_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    let end = oit_end_weight(f, p);
+    return select(exp(-0.5 * clamp(p.sums[0] - f.absorbance, 0.0, {most:?})), end, end >= 0.0);
+}}
+
+fn oit_first_hidden_depth(p: OitPixel) -> f32 {{
+    return nmt_first_hidden_depth(p.sums[0], p.sums[1], p.sums[2]);
+}}
+
+fn oit_hidden_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    return nmt_hidden_weight(f.z, f.absorbance, p.z_nearest, p.z_farthest, p.n, p.sums[0], array<f32, {k}>({sums}));
+}}
 ",
                 moments("m", 0),
                 sums = moments("p.sums", 1),
-                width = set.width()
+                width = set.width(),
+                most = MOST_ABSORBANCE as f32
             ),
             FeatureSet::Paper => "
 fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {
@@ -108,6 +134,36 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         };
         let source = format!("{export}{glue}");
         Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
+    }
+
+    /// The same method with the network run for other fragments, in passes that look at one fragment at a time. A method that has no network keeps its weight, and so does
+    /// one that knows nothing without it.
+    pub fn with_skip(self, skip: Skip) -> Self {
+        if skip == Skip::Exact || !self.has_short_weight() {
+            return self;
+        }
+        let k = self.sums - 1;
+        let sums = (1..=k).map(|i| format!("p.sums[{i}]")).collect::<Vec<_>>().join(", ");
+        let look = format!("(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0], array<f32, {k}>({sums}))");
+        let body = match skip {
+            Skip::Visible => format!("    return nmt_visible_transmittance{look};\n"),
+            _ => {
+                let width = k + 3;
+                let features = (0..width).map(|i| format!("seen[{i}]")).collect::<Vec<_>>().join(", ");
+                format!(
+                    "    let seen = nmt_recentred{look};\n    let others = clamp(p.sums[0] - f.absorbance, 0.0, {most:?});\n    let front = others * \
+                     {SHARE}(array<f32, {width}>({features}));\n    return select(min(exp(-front), 1.0), seen[{width}], seen[{width}] >= 0.0);\n",
+                    most = MOST_ABSORBANCE as f32
+                )
+            }
+        };
+        let source = self.source.replace("fn oit_weight(", "fn oit_exact_weight(");
+        Self { source: format!("{source}\nfn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{\n{body}}}\n"), ..self }
+    }
+
+    /// Whether the source can tell what cannot be seen.
+    pub fn tells_visible(&self) -> bool {
+        self.source.contains("fn oit_hidden_weight(")
     }
 
     /// Whether the source has a short form of the weight.

@@ -5,6 +5,7 @@ use crate::bench::Summary;
 use crate::bench::methods::{Clock, Contender, Cost, FrontTime, NONE, Setting, Table};
 use crate::bench::scatter::{Captions, Point, is_drawn, svg};
 use crate::cli::Verdict;
+use crate::cli::predict::SkipName;
 use crate::cli::scene::{SceneOptions, ViewOptions, load};
 use crate::cli::ui::{Ui, machine, report, table};
 use crate::evaluate::Truth;
@@ -13,6 +14,7 @@ use crate::export::Format;
 use crate::gpu::{Gpu, classic};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
+use crate::oit::neural::Skip;
 use crate::oit::{all_names, parse};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
@@ -34,6 +36,9 @@ pub struct BenchMethods {
     /// Forms of the networks' shaders.
     #[arg(long, value_delimiter = ',', default_value = "wgsl", value_parser = wgsl)]
     format: Vec<Format>,
+    /// Which fragments to run the networks for.
+    #[arg(long, value_enum, default_value = "exact")]
+    skip: SkipName,
     /// Where to measure.
     #[arg(long, value_enum, value_delimiter = ',', default_values = ["cpu", "gpu"])]
     device: Vec<Device>,
@@ -83,7 +88,7 @@ impl BenchMethods {
 
         let list = load(&self.fragments, &self.options)?;
         let truth = Truth::new(&list, background);
-        let setting = Setting { truth: &truth, context, plan };
+        let setting = Setting { truth: &truth, context, plan, skip: self.skip.into() };
         let devices: Vec<Device> =
             [Device::Cpu, Device::Gpu].into_iter().filter(|d| self.device.contains(d) && (*d == Device::Cpu || gpu.is_some())).collect();
         let mut turns = Turns::new(ui, devices.len(), plan);
@@ -107,7 +112,13 @@ impl BenchMethods {
         let scene = Path::new(&self.fragments).file_stem().map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
         let mut results: Vec<Value> = Vec::new();
         for (_, table) in &tables {
-            results.extend(table.costs.iter().map(|c| row_json(&scene, table, c)));
+            results.extend(table.costs.iter().map(|c| {
+                let mut row = row_json(&scene, table, c);
+                if let Some(row) = row.as_object_mut().filter(|_| c.network.is_some()) {
+                    row.insert("skip".to_owned(), json!(Skip::from(self.skip)));
+                }
+                row
+            }));
             results.extend(table.left_out.iter().map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })));
         }
         let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";

@@ -1,14 +1,16 @@
 
-@group(0) @binding(8) var<storage, read> oit_tiles: array<u32>;
+@group(0) @binding(8) var<storage, read> oit_lists: array<u32>;
 
-@compute @workgroup_size(8, 8)
-fn oit_listed_tiles(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) local: vec3<u32>) {
-    let index = group.y * OIT_ROW + group.x;
-    if (index >= oit_tiles[OIT_LIST]) {
+// Pixels of one kind, 64 to a workgroup.
+@compute @workgroup_size(64)
+fn oit_listed_pixels(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let index = 64u * (group.y * OIT_ROW + group.x) + local;
+    if (index >= oit_lists[6u + OIT_KIND]) {
         return;
     }
-    let across = (oit_frame.size.x + 7u) / 8u;
-    let down = (oit_frame.size.y + 7u) / 8u;
-    let tile = oit_tiles[2u + OIT_LIST * across * down + index];
-    oit_shade(8u * vec2<u32>(tile % across, tile / across) + local.xy);
+    let pixel = oit_lists[8u + select(index, oit_frame.size.x * oit_frame.size.y - 1u - index, OIT_KIND == 1u)];
+    let state = oit_state(pixel);
+    var weighted = vec4<f32>(0.0);
+    OIT_LOOP
+    oit_finish(pixel, state, weighted, asked);
 }
