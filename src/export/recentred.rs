@@ -3,8 +3,8 @@
 use super::shader::{Language, Numbers, Precision, SHARE};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
-    ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, LEAST_HALF_RANGE, MEAN_DEVIATION,
-    MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, STRADDLE, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
+    LEAST_HALF_RANGE, MEAN_DEVIATION, MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use std::fmt::Write;
 
@@ -221,28 +221,16 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         w.statement("front = front3;");
         w.open("n != 3.0");
     }
-    w.bind("inner", "1.0 - m2");
-    w.bind("per_mass1", "1.0 / max(inner, 1e-6)");
-    w.bind("raw_mean1", "clamp((m1 - m3) * per_mass1, -1.0, 1.0)");
-    if early {
-        w.variable("known", "-1.0");
-        w.open("n == 4.0");
-    }
+    first_features(w);
     four(w);
-    // NaN is no answer.
-    let tolerance = w.number(CLOSED_FORM_TOLERANCE);
-    let sure = format!("error * others <= {tolerance} * (1.0 + least * (1.0 + 0.5 * least))");
-    let answer = w.select(&sure, "others * share4", "-1.0");
     match hand {
         Hand::Early => {
-            w.statement(&format!("known = {answer};"));
-            w.close();
-            w.statement("front = known;");
-            w.open("known < 0.0");
+            w.statement("front = front4;");
+            w.open("n != 4.0");
         }
         Hand::Beside => {
-            w.variable("front", &answer);
-            let rules = [("n == 4.0", "front", "-1.0"), ("n == 3.0", "front3", "front"), ("v == farthest", "others", "front")];
+            w.variable("front", "-1.0");
+            let rules = [("n == 4.0", "front4", "front"), ("n == 3.0", "front3", "front"), ("v == farthest", "others", "front")];
             let first = [("others > 1e-6 * b0", "front", "0.0"), ("v == nearest", "0.0", "front")];
             for (condition, yes, no) in rules.into_iter().chain(first) {
                 let chosen = w.select(condition, yes, no);
@@ -296,40 +284,15 @@ pub(super) fn recentred_moments(w: &mut Writer, k: usize) {
     }
 }
 
-/// The closed form of four fragments: the share in front, how far it may be off, and the least optical depth in front.
-fn four(w: &mut Writer) {
-    let epsilon = w.number(f32::EPSILON.into());
-    w.bind("e2", "e1 * reach");
-    w.bind("u", "raw_mean1");
-    // Error of (1 - x^2) mu's first moment; u is off by so much over its mass.
-    w.bind("off", "e1 + e2 * (reach + abs(u))");
-    let sign = w.select("u < along", "-1.0", "1.0");
-    w.bind("side", &sign);
-    w.bind("gap", "1.0 + side * u");
-    w.bind("per_gap", "1.0 / max(gap, 1e-30)");
-    w.bind("end", "0.5 * (1.0 - side * m1 - inner * per_gap)");
-    let straddle = w.number(STRADDLE);
-    let straddles = w.select(&format!("abs(along - u) <= {straddle} * off * per_mass1"), &format!("inner / max(1.0 - u * u, {epsilon})"), "0.0");
-    w.bind("error", &format!("0.5 * (e1 + (e2 + off * per_gap) * per_gap) + {straddles}"));
-    let share = w.select("side < 0.0", "1.0 - end", "end");
-    w.bind("share4", &format!("clamp({share}, 0.0, 1.0)"));
-    w.bind("least", "others * max(share4 - error, 0.0)");
-}
-
-/// The features: the measure, and what is left of it without its ends; what rounding has made noise of goes over to what is expected. Returns their names.
+/// Spread and inner mean, and how far the latter may usually be off; what rounding has made noise of goes over to what is expected.
 ///
 /// Value and expectation are weighted by the squares of deviation and noise over one common denominator, so that the chain of divisions is short. Noise is bounded,
 /// so that its square does not overflow.
-fn features(w: &mut Writer, k: usize) -> Vec<String> {
-    let third = w.number(std::f64::consts::LOG2_E / 3.0);
-    w.bind("count", &format!("log(n) * {third} - 1.0"));
-    let offset = w.number(ABSORBANCE_OFFSET.into());
-    let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
+fn first_features(w: &mut Writer) {
     let growth = w.number(NOISE_GROWTH);
     w.bind("further", &format!("reach * {growth}"));
     w.bind("noise2", "min(noise1 * further, 1e15)");
     w.bind("noise3", "noise1 * further * further");
-    w.bind("noise4", "noise3 * further");
 
     w.bind("most0", "max(1.0 - mean0 * mean0, 1e-6)");
     let (deviation, expected) = (by_count(w, SPREAD_DEVIATION), by_count(w, USUAL_SPREAD));
@@ -338,23 +301,50 @@ fn features(w: &mut Writer, k: usize) -> Vec<String> {
     w.bind("doubt2", "noise2 * noise2");
     w.bind("spread0", &format!("(clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + ({expected}) * doubt2) / (most0 * trust2 + doubt2)"));
 
-    // What mean and spread lead to expect has denominators of its own.
+    // What mean and spread lead to expect has a denominator of its own.
+    w.bind("per_mass1", "1.0 / max(1.0 - m2, 1e-6)");
     w.bind("mean_part", "1.0 + spread0");
     let deviation = by_count(w, INNER_MEAN_DEVIATION);
     w.bind("deviation3", &format!("({deviation}) * (spread0 + 0.02)"));
     w.bind("trust3", "deviation3 * deviation3");
     w.bind("bounded3", "min(noise3 * per_mass1, 1e15)");
     w.bind("doubt3", "bounded3 * bounded3");
-    w.bind("mean1", "(raw_mean1 * mean_part * trust3 + mean0 * (1.0 - spread0) * doubt3) / (mean_part * (trust3 + doubt3))");
+    w.bind("expected3", "mean0 * (1.0 - spread0)");
+    w.bind("raw_mean1", "clamp((m1 - m3) * per_mass1, -1.0, 1.0)");
+    w.bind("mean1", "(raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3))");
+}
+
+/// The closed form of four fragments: optical depth in front.
+fn four(w: &mut Writer) {
+    let rounding = w.number(ARITHMETIC * f64::from(f32::EPSILON));
+    w.bind("noise", &format!("bounded3 + {rounding} * per_mass1"));
+    w.bind("off", "noise * deviation3 / (noise + deviation3)");
+    w.bind("inner", "(1.0 - spread0) * (1.0 - mean0 * mean0)");
+    w.bind("near_share", "clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0)");
+    w.bind("far_share", "clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0)");
+    w.bind("behind", "clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0)");
+    w.bind("front4", "others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0)");
+}
+
+/// The other features. Returns the names of all.
+fn features(w: &mut Writer, k: usize) -> Vec<String> {
+    let third = w.number(std::f64::consts::LOG2_E / 3.0);
+    w.bind("count", &format!("log(n) * {third} - 1.0"));
+    let offset = w.number(ABSORBANCE_OFFSET.into());
+    let mut items = vec!["x".to_owned(), "count".to_owned(), format!("log(others + {offset})")];
     w.bind("most1", "max(1.0 - mean1 * mean1, 1e-6)");
     w.bind("spread_part", "mean_part + spread0");
     let (deviation, usual) = (by_count(w, INNER_SPREAD_DEVIATION), by_count(w, USUAL_INNER_SPREAD));
+    let (of_spread, of_offset) = (w.number(INNER_SPREAD_OF_SPREAD), w.number(INNER_SPREAD_OF_OFFSET));
+    w.bind("offset", "mean1 * mean_part - expected3");
+    w.bind("square0", "spread0 * spread0");
+    w.bind("expected4", &format!("clamp(({usual} + {of_spread} * square0 * square0 - {of_offset} * offset * offset) * spread0, 0.0, spread_part)"));
     w.bind("deviation4", &format!("({deviation}) * (spread0 + 0.02)"));
     w.bind("trust4", "deviation4 * deviation4 * most1");
-    w.bind("bounded4", "min(noise4 * per_mass1, 1e15)");
+    w.bind("bounded4", "min(noise3 * further * per_mass1, 1e15)");
     w.bind("doubt4", "bounded4 * bounded4");
     w.bind("raw_square1", "clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1)");
-    w.bind("square1", &format!("(raw_square1 * trust4 * spread_part + ({usual}) * spread0 * doubt4) / (spread_part * (trust4 * most1 + doubt4))"));
+    w.bind("square1", "(raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4))");
     w.bind("spread1", "sqrt(square1)");
     items.extend(["mean0", "spread0", "mean1", "spread1"].map(str::to_owned));
 

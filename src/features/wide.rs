@@ -1,8 +1,8 @@
 //! [`recentred`](super::recentred) and [`visible`](super::visible) for sixteen fragments at once, of any pixels, in f32; function by function what those files do, without branches.
 
 use super::recentred::{
-    ABSORBANCE_OFFSET, ByCount, CLOSED_FORM_TOLERANCE, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION,
-    STRADDLE, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
+    MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use super::visible::{HIDDEN, ORDER};
 use crate::numeric::lanes::{exp, ln};
@@ -126,46 +126,45 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         self.rounding(simd, d) * (f32x16::splat(simd, USUAL_NOISE as f32) * self.count.sqrt())
     }
 
-    /// Optical depth in front of a fragment that is one of three or four, and where that closed form holds.
+    /// Optical depth in front of a fragment that is one of three or four.
     #[inline(always)]
-    pub fn closed_form(&self, simd: S, d: &Described<S, K>) -> (f32x16<S>, mask32x16<S>) {
+    pub fn closed_form(&self, simd: S, d: &Described<S, K>) -> f32x16<S> {
         let splat = |v: f32| f32x16::splat(simd, v);
         let (zero, half, one) = (splat(0.0), splat(0.5), splat(1.0));
-        let three = self.count.simd_eq(splat(3.0));
-        let m = &d.m;
-        let mean = shrunk(m[0], zero, self.noise(simd, d), by_count(simd, MEAN_DEVIATION, one / self.count));
-        let of_three = clamp(half * (one - mean), zero, one);
-        if K < 3 {
-            return (d.others * of_three, three);
-        }
-        let e1 = self.rounding(simd, d);
-        let e2 = e1 * d.reach;
-        let inner = one - m[1];
-        let per_inner = one / inner.max(splat(1e-6));
-        let u = clamp((m[0] - m[2]) * per_inner, -one, one);
-        let off = e1 + e2 * (d.reach + u.abs());
-        let in_front = u.simd_lt(d.x);
-        let sign = in_front.select(-one, one);
-        let per_gap = one / (one + sign * u).max(splat(1e-30));
-        let end = half * (one - sign * m[0] - inner * per_gap);
-        let error = half * (e1 + (e2 + off * per_gap) * per_gap);
-        let beside = inner / (one - u * u).max(splat(f32::EPSILON));
-        let error = (d.x - u).abs().simd_le(splat(STRADDLE as f32) * off * per_inner).select(error + beside, error);
-        let share = clamp(in_front.select(one - end, end), zero, one);
-        let least = d.others * (share - error).max(zero);
-        // NaN is not less.
-        let holds = (error * d.others).simd_le(splat(CLOSED_FORM_TOLERANCE as f32) * (one + least * (one + half * least)));
-        (d.others * three.select(of_three, share), three | holds)
+        let (measure, doubt) = self.measure(simd, d);
+        let [mean, spread, u] = [measure[0], measure[1], measure[2]];
+        let of_three = clamp(half - half * mean, zero, one);
+        // share_of_four
+        let least = splat(1e-6);
+        let inner = (one - spread) * (one - mean * mean);
+        let near = clamp(half * (one - mean - inner / (one + u).max(least)), zero, one);
+        let far = clamp(half * (one + mean - inner / (one - u).max(least)), zero, one);
+        let behind = clamp(half + half * (self.position(simd, d) - u) / doubt, zero, one);
+        let of_four = clamp(near + behind * (one - far - near), zero, one);
+        d.others * self.count.simd_eq(splat(3.0)).select(of_three, of_four)
+    }
+
+    /// Position in the pixel's range; in a thin pixel that of its view depth.
+    #[inline(always)]
+    fn position(&self, simd: S, d: &Described<S, K>) -> f32x16<S> {
+        self.place.simd_le(f32x16::splat(simd, 1.0)).select(self.place, d.x)
     }
 
     /// The columns of the feature set, in order: the first three, then mean and spread by turns.
     #[inline(always)]
     pub fn features(&self, simd: S, d: &Described<S, K>) -> ([f32x16<S>; 3], [f32x16<S>; K]) {
         let splat = |v: f32| f32x16::splat(simd, v);
+        let count = ln(simd, self.count) * splat((std::f64::consts::LOG2_E / 3.0) as f32) - splat(1.0);
+        let ln_b0 = ln(simd, d.others + splat(ABSORBANCE_OFFSET));
+        ([self.position(simd, d), count, ln_b0], self.measure(simd, d).0)
+    }
+
+    /// Means and spreads, and how far the inner mean may usually be off.
+    #[inline(always)]
+    fn measure(&self, simd: S, d: &Described<S, K>) -> ([f32x16<S>; K], f32x16<S>) {
+        let splat = |v: f32| f32x16::splat(simd, v);
         let (zero, half, one) = (splat(0.0), splat(0.5), splat(1.0));
         let least = splat(1e-6);
-        let count = ln(simd, self.count) * splat((std::f64::consts::LOG2_E / 3.0) as f32) - one;
-        let ln_b0 = ln(simd, d.others + splat(ABSORBANCE_OFFSET));
         let mut q = [one; 9];
         q[1..=K].copy_from_slice(&d.m);
         let mut out = [zero; K];
@@ -175,7 +174,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let noise2 = noise1 * further;
         let noise3 = noise2 * further;
         let noise4 = noise3 * further;
-        let (mut mean0, mut spread0) = (zero, zero);
+        let (mut mean0, mut spread0, mut doubt) = (zero, zero, one);
         for level in 0..K / 2 {
             let last = K - 2 * level;
             let per_mass = one / q[0].max(least);
@@ -184,7 +183,10 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 0 => mean = shrunk(mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
                 1 => {
                     let deviation = by_count(simd, INNER_MEAN_DEVIATION, per_n) * (spread0 + splat(0.02));
-                    mean = shrunk(mean, mean0 * (one - spread0) / (one + spread0), noise3 * per_mass, deviation);
+                    let noise = noise3 * per_mass;
+                    let all = noise + splat(ARITHMETIC as f32 * f32::EPSILON) * per_mass;
+                    doubt = all * deviation / (all + deviation);
+                    mean = shrunk(mean, mean0 * (one - spread0) / (one + spread0), noise, deviation);
                 }
                 _ => {}
             }
@@ -198,7 +200,10 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 }
                 1 => {
                     let deviation = by_count(simd, INNER_SPREAD_DEVIATION, per_n) * (spread0 + splat(0.02));
-                    let expected = by_count(simd, USUAL_INNER_SPREAD, per_n) * spread0 / (one + spread0 + spread0);
+                    let offset = mean * (one + spread0) - mean0 * (one - spread0);
+                    let usual = by_count(simd, USUAL_INNER_SPREAD, per_n) + splat(INNER_SPREAD_OF_SPREAD as f32) * square(square(spread0))
+                        - splat(INNER_SPREAD_OF_OFFSET as f32) * square(offset);
+                    let expected = clamp(usual * spread0 / (one + spread0 + spread0), zero, one);
                     spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
                 }
                 _ => {
@@ -219,8 +224,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 q[k] -= beyond;
             }
         }
-        let x = self.place.simd_le(one).select(self.place, d.x);
-        ([x, count, ln_b0], out)
+        (out, doubt)
     }
 
     /// Which of these fragments, if they lie deep enough to be looked at, are hidden.
