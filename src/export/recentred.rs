@@ -136,6 +136,12 @@ pub(super) const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest
 /// Constant of what storage does to moments.
 pub const ROUNDING: &str = "NMT_ROUNDING";
 
+/// WGSL of a recentred network whose sums are rounded to `unit` of b0 where they are stored, instead of as f32; other source stays as it is.
+pub fn with_rounding(wgsl: &str, unit: f32) -> String {
+    let constant = |unit| Numbers { language: Language::Wgsl, precision: Precision::F32 }.scalar_constant(ROUNDING, unit);
+    wgsl.replace(&constant(f32::EPSILON), &constant(unit))
+}
+
 /// Functions of pass 1, and the one that looks at a fragment in pass 2.
 pub fn source(language: Language, set: FeatureSet) -> String {
     let (k, width) = (set.moments(), set.width());

@@ -14,6 +14,7 @@
 
 use super::device::{Gpu, GpuError, Stamps};
 use super::method::{Composite, MethodShader};
+use crate::export::recentred::with_rounding;
 use crate::pixel::{CameraPlanes, FragmentList};
 use wgpu::TextureFormat::{Depth32Float, R16Float, R32Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float};
 
@@ -58,6 +59,9 @@ impl Storage {
         if self == Self::Full { Rgba32Float } else { Rgba16Float }
     }
 }
+
+/// Rounding of f16 sums.
+const HALF_ROUNDING: f32 = 1.0 / 1024.0;
 
 /// What a device lets pass 1 write at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -235,6 +239,8 @@ impl Shaders {
             }
         }
         let module = method.module();
+        // What thin pixels take for noise follows from how sums are stored.
+        let module = if storage == Storage::Half { with_rounding(&module, HALF_ROUNDING) } else { module };
         let pass1 = draws.into_iter().map(|draw| {
             if targets[draw[0]].is_depth() {
                 return (format!("{module}{FRAME}{POINTS}{END}"), draw);
