@@ -35,7 +35,7 @@ enum What {
     Infer(BenchInfer),
     /// Time of transparency methods and networks on a fragment list against their error, on the CPU and the GPU.
     Methods(methods::BenchMethods),
-    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only in the tiles that need it.
+    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only for the fragments that need it or can be seen.
     Tiles(super::bench_tiles::BenchTiles),
 }
 

@@ -34,7 +34,7 @@ pub enum Composite {
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
 /// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
 /// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
-/// - where there is a shorter way in pixels of up to three fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers;
+/// - where there is a shorter way in pixels of up to four fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers;
 /// - with it `fn oit_end_weight`: the same number where a fragment is an end of its pixel or has next to nothing beside it, else −1;
 /// - where a network is spared what cannot be seen, `fn oit_faint_weight(f, p)`, `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
 ///   [`visible`](crate::features::visible) has them.

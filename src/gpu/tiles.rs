@@ -1,6 +1,6 @@
 //! Both passes in compute shaders over per-pixel lists, and the network only for the fragments that need it.
 //!
-//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to three fragments, or of fragments at one depth, follow from exact rules; they are shaded as soon as
+//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to four fragments, or of fragments at one depth, follow from exact rules; they are shaded as soon as
 //! they are told apart, by a shader that holds no network. The others go to a list, 64 to a workgroup whatever lies between them, and an indirect dispatch shades them.
 //! With [`Skip::Visible`] faint pixels are known too, and pixels in which fragments may be hidden have a list and a shader of their own: it finds the depth from
 //! which on all is hidden, once a pixel, and runs the network for what is in front. Nothing needs blending, so that this is also the way where a device cannot blend into f32 targets.
@@ -224,7 +224,7 @@ impl TilePasses {
 /// The shader that tells pixels apart: whether one is `known` or `faint`, what `kind` it is else, and the weight of fragments of the known.
 fn classify(method: &MethodShader, visible: bool) -> String {
     // What has no short form needs the long one wherever there is a fragment.
-    let known = if method.has_short_weight() { "state.n <= 3.0 || state.nearest >= state.farthest" } else { "state.n == 0.0" };
+    let known = if method.has_short_weight() { "state.n <= 4.0 || state.nearest >= state.farthest" } else { "state.n == 0.0" };
     let short = if method.has_short_weight() { "oit_short_weight(f, state)" } else { "0.0" };
     let (kinds, weight) = match (visible, method.tells_visible()) {
         (_, false) if !visible || method.composite != Composite::Normalised => {
@@ -322,7 +322,7 @@ mod tests {
                 let (plain, apart) = (shaded(gpu, &passes, Skip::None), shaded(gpu, &passes, Skip::Exact));
                 assert!(plain == apart, "{name}, {network}");
                 let counts = passes.counts(gpu).unwrap();
-                assert_eq!(counts, expected(&list, |v| v.len() <= 3 || v.iter().all(|x| *x == v[0])), "{name}, {network}");
+                assert_eq!(counts, expected(&list, |v| v.len() <= 4 || v.iter().all(|x| *x == v[0])), "{name}, {network}");
                 assert!(counts.network > 0 && counts.known > 0, "{counts:?}");
                 let asked: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 3).sum();
                 let found = passes.asked(gpu).unwrap() as usize;
