@@ -324,7 +324,7 @@ mod tests {
                 let counts = passes.counts(gpu).unwrap();
                 assert_eq!(counts, expected(&list, |v| v.len() <= 4 || v.iter().all(|x| *x == v[0])), "{name}, {network}");
                 assert!(counts.network > 0 && counts.known > 0, "{counts:?}");
-                let asked: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 3).sum();
+                let asked: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 4).sum();
                 let found = passes.asked(gpu).unwrap() as usize;
                 assert!(found <= asked && found * 100 >= asked * 98, "{name}, {network}: {found} of {asked}");
             }
