@@ -133,6 +133,11 @@ impl Writer {
 /// What the fragment's own data and what pass 1 left are called, in the order of parameters.
 pub(super) const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
 
+/// Parameters of the functions that look at a fragment.
+pub(super) fn look_parameters(k: usize) -> Vec<(&'static str, usize)> {
+    LOOK.into_iter().map(|name| (name, 0)).chain([("b", k)]).collect()
+}
+
 /// Constant of what storage does to moments.
 pub const ROUNDING: &str = "NMT_ROUNDING";
 
@@ -178,8 +183,7 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.line("\n// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
     w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
     w.line("// known without the network, else -1. No branch is taken.");
-    let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
-    w.function("nmt_recentred", &parameters, width + 1);
+    w.function("nmt_recentred", &look_parameters(k), width + 1);
     look(&mut w, k, Hand::Beside);
     w.text
 }
@@ -354,38 +358,34 @@ fn features(w: &mut Writer, k: usize) -> Vec<String> {
     w.bind("spread1", "sqrt(square1)");
     items.extend(["mean0", "spread0", "mean1", "spread1"].map(str::to_owned));
 
+    if k == 4 {
+        return items;
+    }
     // Beyond, moments of (1 − x²)² μ and so on: differences of differences.
     let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
-    for level in 0..k / 2 {
-        if level >= 2 {
-            let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
-            w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
-            w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
-            w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
-            w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / most{level}, 0.0, 1.0))", q[2]));
-            for (name, moment, value) in [
-                (format!("sure_{mean}"), 2 * level + 1, format!("{mean} * trust_{mean}")),
-                (format!("sure_{spread}"), 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}")),
-            ] {
-                let of = name.trim_start_matches("sure_");
-                w.bind(&format!("noise_{of}"), &format!("e1{} * per_mass{level}", " * reach".repeat(moment - 1)));
-                w.bind(&format!("trust_{of}"), &format!("1.0 / (1.0 + noise_{of} * noise_{of})"));
-                w.bind(&name, &value);
-            }
-            items.extend([format!("sure_{mean}"), format!("sure_{spread}")]);
+    for level in 1..k / 2 {
+        q = (0..q.len() - 2)
+            .map(|i| {
+                let name = format!("q{level}_{i}");
+                w.bind(&name, &format!("{} - {}", q[i], q[i + 2]));
+                name
+            })
+            .collect();
+        if level == 1 {
+            continue;
         }
-        let rest = q.len() - 2;
-        if rest > 2 {
-            q = (0..rest)
-                .map(|i| {
-                    let name = format!("q{}_{i}", level + 1);
-                    // With four moments the text above has all that is needed.
-                    if k > 4 {
-                        w.bind(&name, &format!("{} - {}", q[i], q[i + 2]));
-                    }
-                    name
-                })
-                .collect();
+        let (mean, spread) = (format!("mean{level}"), format!("spread{level}"));
+        w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
+        w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
+        w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
+        w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / most{level}, 0.0, 1.0))", q[2]));
+        for (of, moment, value) in
+            [(&mean, 2 * level + 1, format!("{mean} * trust_{mean}")), (&spread, 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}"))]
+        {
+            w.bind(&format!("noise_{of}"), &format!("e1{} * per_mass{level}", " * reach".repeat(moment - 1)));
+            w.bind(&format!("trust_{of}"), &format!("1.0 / (1.0 + noise_{of} * noise_{of})"));
+            w.bind(&format!("sure_{of}"), &value);
+            items.push(format!("sure_{of}"));
         }
     }
     items
@@ -402,8 +402,7 @@ pub fn answer(language: Language, set: FeatureSet) -> String {
     let mut w = Writer::new(language);
     w.line("\n// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features");
     w.line("// and the network, so that groups of threads in which all is known skip them.");
-    let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
-    w.function("nmt_fragment_transmittance", &parameters, 0);
+    w.function("nmt_fragment_transmittance", &look_parameters(k), 0);
     look(&mut w, k, Hand::Early);
     w.text
 }

@@ -1,6 +1,6 @@
 //! Shader source of what cannot be seen: the twin of [`crate::features::visible`], behind the function that answers everything.
 
-use super::recentred::{LOOK, ROUNDING, Writer, recentred_moments};
+use super::recentred::{LOOK, ROUNDING, Writer, look_parameters, recentred_moments};
 use super::shader::{Language, Numbers, Precision};
 use crate::features::FeatureSet;
 use crate::features::recentred::MOST_ABSORBANCE;
@@ -88,8 +88,7 @@ pub fn source(language: Language, set: FeatureSet) -> String {
 
     w.line("\n// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels");
     w.line("// of up to four fragments have forms of their own.");
-    let parameters: Vec<(&str, usize)> = LOOK.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
-    w.function("nmt_visible_transmittance", &parameters, 0);
+    w.function("nmt_visible_transmittance", &look_parameters(k), 0);
     w.bind("others", &others);
     w.variable("front", "-1.0");
     for condition in ["n > 4.0", "v != nearest", "v != farthest", "others > 1e-6 * b0"] {

@@ -36,7 +36,7 @@ pub enum Composite {
 /// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
 /// - where there is a shorter way in pixels of up to four fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers;
 /// - with it `fn oit_end_weight`: the same number where a fragment is an end of its pixel or has next to nothing beside it, else −1;
-/// - where a network is spared what cannot be seen, `fn oit_faint_weight(f, p)`, `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
+/// - where a network is spared what cannot be seen, `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`, `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
 ///   [`visible`](crate::features::visible) has them.
 ///
 /// No name of it but these begins with `oit_`.
@@ -80,13 +80,11 @@ fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{
 }}
 
 fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
-    return nmt_fragment_transmittance(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
-        array<f32, {k}>({sums}));
+    return nmt_fragment_transmittance({look});
 }}
 
 fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{
-    return nmt_recentred(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0],
-        array<f32, {k}>({sums}))[{width}];
+    return nmt_recentred({look})[{width}];
 }}
 
 fn oit_end_weight(f: OitFragment, p: OitPixel) -> f32 {{
@@ -100,6 +98,10 @@ fn oit_faint_weight(f: OitFragment, p: OitPixel) -> f32 {{
     return select(exp(-0.5 * clamp(p.sums[0] - f.absorbance, 0.0, {most:?})), end, end >= 0.0);
 }}
 
+fn oit_visible_weight(f: OitFragment, p: OitPixel) -> f32 {{
+    return nmt_visible_transmittance({look});
+}}
+
 fn oit_first_hidden_depth(p: OitPixel) -> f32 {{
     return nmt_first_hidden_depth(p.sums[0], p.sums[1], p.sums[2]);
 }}
@@ -110,6 +112,10 @@ fn oit_hidden_weight(f: OitFragment, p: OitPixel) -> f32 {{
 ",
                 moments("m", 0),
                 sums = moments("p.sums", 1),
+                look = format_args!(
+                    "f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0], array<f32, {k}>({})",
+                    moments("p.sums", 1)
+                ),
                 width = set.width(),
                 most = MOST_ABSORBANCE as f32
             ),
@@ -141,14 +147,8 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         if skip != Skip::Visible || !self.tells_visible() {
             return self;
         }
-        let k = self.sums - 1;
-        let sums = (1..=k).map(|i| format!("p.sums[{i}]")).collect::<Vec<_>>().join(", ");
-        let look = format!("(f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0], array<f32, {k}>({sums}))");
-        let source = self.source.replace("fn oit_weight(", "fn oit_exact_weight(");
-        Self {
-            source: format!("{source}\nfn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{\n    return nmt_visible_transmittance{look};\n}}\n"),
-            ..self
-        }
+        let source = self.source.replace("fn oit_weight(", "fn oit_exact_weight(").replace("fn oit_visible_weight(", "fn oit_weight(");
+        Self { source, ..self }
     }
 
     /// Whether the source can tell what cannot be seen.

@@ -60,9 +60,6 @@ impl Storage {
     }
 }
 
-/// Rounding of f16 sums.
-const HALF_ROUNDING: f32 = 1.0 / 1024.0;
-
 /// What a device lets pass 1 write at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
@@ -240,7 +237,7 @@ impl Shaders {
         }
         let module = method.module();
         // What thin pixels take for noise follows from how sums are stored.
-        let module = if storage == Storage::Half { with_rounding(&module, HALF_ROUNDING) } else { module };
+        let module = if storage == Storage::Half { with_rounding(&module, crate::features::Storage::F16.rounding().unit) } else { module };
         let pass1 = draws.into_iter().map(|draw| {
             if targets[draw[0]].is_depth() {
                 return (format!("{module}{FRAME}{POINTS}{END}"), draw);
