@@ -3,7 +3,11 @@
 use std::process::Command;
 
 fn git(arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").args(arguments).output().ok().filter(|o| o.status.success())?;
+    let output = Command::new("git")
+        .args(arguments)
+        .output()
+        .ok()
+        .filter(|o| o.status.success())?;
     Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
 }
 
@@ -13,10 +17,22 @@ fn main() {
     // Only where this package is the repository, and not a dependency unpacked inside another one.
     let here = git(&["rev-parse", "--show-prefix"]).is_some_and(|prefix| prefix.is_empty());
     if let Some(revision) = git(&["rev-parse", "--short=12", "HEAD"]).filter(|_| here) {
-        for path in [git(&["rev-parse", "--git-path", "HEAD"]), git(&["rev-parse", "--git-path", "logs/HEAD"])].into_iter().flatten() {
+        for path in [
+            git(&["rev-parse", "--git-path", "HEAD"]),
+            git(&["rev-parse", "--git-path", "logs/HEAD"]),
+        ]
+        .into_iter()
+        .flatten()
+        {
             println!("cargo:rerun-if-changed={path}");
         }
-        let clean = Command::new("git").args(["diff", "--quiet", "HEAD", "--", "src", "Cargo.toml"]).status().is_ok_and(|s| s.success());
-        println!("cargo:rustc-env=NMT_COMMIT={revision}{}", if clean { "" } else { "-modified" });
+        let clean = Command::new("git")
+            .args(["diff", "--quiet", "HEAD", "--", "src", "Cargo.toml"])
+            .status()
+            .is_ok_and(|s| s.success());
+        println!(
+            "cargo:rustc-env=NMT_COMMIT={revision}{}",
+            if clean { "" } else { "-modified" }
+        );
     }
 }

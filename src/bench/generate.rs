@@ -1,6 +1,6 @@
 //! Speed of generation: random pixels, their features and exact answers, as training streams them.
 
-use super::network::MOST_ROWS;
+use super::network::MAX_ROWS;
 use super::{BenchError, Plan, Samples, Subject, measure};
 use crate::dataset::{DatasetConfig, RowStream};
 use crate::synth::{Purpose, SynthConfig};
@@ -33,13 +33,26 @@ pub struct Generation {
 ///
 /// # Errors
 /// [`BenchError::Dataset`] where a source is invalid.
-pub fn generate(plan: Plan, sources: &[Source], pairs: usize, progress: &dyn Fn(u64)) -> Result<Vec<Generation>, BenchError> {
-    super::check((1..=MOST_ROWS).contains(&pairs), "pairs", pairs, "from 1 to 67108864")?;
-    let streams: Vec<RowStream> =
-        sources.iter().map(|s| RowStream::new(s.seed, &s.synth, &s.dataset, Purpose::Training)).collect::<Result<_, _>>()?;
-    let mut subjects: Vec<Subject<'_>> =
-        streams.into_iter().map(|mut stream| Subject::new(move || Ok(stream.take(pairs, &|_| {})?.len() as u64))).collect();
+pub fn generate(
+    plan: Plan,
+    sources: &[Source],
+    pairs: usize,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<Generation>, BenchError> {
+    super::check((1..=MAX_ROWS).contains(&pairs), "pairs", pairs, "from 1 to 67108864")?;
+    let streams: Vec<RowStream> = sources
+        .iter()
+        .map(|s| RowStream::new(s.seed, &s.synth, &s.dataset, Purpose::Training))
+        .collect::<Result<_, _>>()?;
+    let mut subjects: Vec<Subject<'_>> = streams
+        .into_iter()
+        .map(|mut stream| Subject::new(move || Ok(stream.take(pairs, &|_| {})?.len() as u64)))
+        .collect();
     let samples = measure(plan, &mut subjects, progress)?;
-    let of = |(source, samples): (&Source, _)| Generation { name: source.name.clone(), features: source.dataset.features.name(), samples };
+    let of = |(source, samples): (&Source, _)| Generation {
+        name: source.name.clone(),
+        features: source.dataset.features.name(),
+        samples,
+    };
     Ok(sources.iter().zip(samples).map(of).collect())
 }

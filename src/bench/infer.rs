@@ -1,6 +1,6 @@
 //! Speed of batched inference: features to answers, against the reference pass and onnxruntime.
 
-use super::network::{MOST_ROWS, inference_multiply_adds, random_rows};
+use super::network::{MAX_ROWS, inference_multiply_adds, random_rows};
 use super::{BenchError, Measurement, Plan, Subject, measure, peak};
 use crate::check::onnx::Session;
 use crate::export::onnx::encode;
@@ -22,8 +22,14 @@ const SAME: f64 = 1e-3;
 ///
 /// # Errors
 /// [`BenchError`] where the batch is empty or onnxruntime fails or computes something else.
-pub fn infer(plan: Plan, mlp: &Mlp, batch: usize, onnxruntime: Option<&Path>, progress: &dyn Fn(u64)) -> Result<Vec<Measurement>, BenchError> {
-    super::check((1..=MOST_ROWS).contains(&batch), "batch", batch, "from 1 to 67108864")?;
+pub fn infer(
+    plan: Plan,
+    mlp: &Mlp,
+    batch: usize,
+    onnxruntime: Option<&Path>,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<Measurement>, BenchError> {
+    super::check((1..=MAX_ROWS).contains(&batch), "batch", batch, "from 1 to 67108864")?;
     let rows = random_rows(mlp.feature_set(), batch).features;
     let reference: Vec<f32> = mlp.forward_batch(&rows);
     let difference = |answers: &[f32]| {
@@ -32,14 +38,18 @@ pub fn infer(plan: Plan, mlp: &Mlp, batch: usize, onnxruntime: Option<&Path>, pr
     };
     let width = mlp.feature_set().width();
     let mut session = match onnxruntime {
-        Some(library) => Some(Session::new(library, &encode(mlp), Some(rayon::current_num_threads())).map_err(BenchError::Onnxruntime)?),
+        Some(library) => Some(
+            Session::new(library, &encode(mlp), Some(rayon::current_num_threads())).map_err(BenchError::Onnxruntime)?,
+        ),
         None => None,
     };
     let mut differences = vec![difference(&mlp.predict(&rows)), 0.0];
     if let Some(session) = &mut session {
         let worst = session.run(&rows, width, difference).map_err(BenchError::Onnxruntime)?;
         if worst > SAME {
-            return Err(BenchError::Onnxruntime(format!("its answers differ from the network's by {worst:.1e}")));
+            return Err(BenchError::Onnxruntime(format!(
+                "its answers differ from the network's by {worst:.1e}"
+            )));
         }
         differences.push(worst);
     }
@@ -56,7 +66,12 @@ pub fn infer(plan: Plan, mlp: &Mlp, batch: usize, onnxruntime: Option<&Path>, pr
         }),
     ];
     if let Some(session) = &mut session {
-        let call = || session.run(&rows, width, |answers| _ = black_box(answers)).map(|()| done).map_err(BenchError::Onnxruntime);
+        let call = || {
+            session
+                .run(&rows, width, |answers| _ = black_box(answers))
+                .map(|()| done)
+                .map_err(BenchError::Onnxruntime)
+        };
         subjects.push(Subject::new(call).with_rest(ONNXRUNTIME_REST));
     }
     subjects.push(peak::subject());
@@ -74,5 +89,10 @@ pub fn infer(plan: Plan, mlp: &Mlp, batch: usize, onnxruntime: Option<&Path>, pr
         peak: peak.clone(),
         worst_difference: Some(worst),
     };
-    Ok(["simd", "reference", "onnxruntime"].into_iter().zip(samples).zip(differences).map(of).collect())
+    Ok(["simd", "reference", "onnxruntime"]
+        .into_iter()
+        .zip(samples)
+        .zip(differences)
+        .map(of)
+        .collect())
 }

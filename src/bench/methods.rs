@@ -173,7 +173,11 @@ pub struct LeftOut {
 
 impl LeftOut {
     fn new(method: impl Into<String>, why: impl ToString, harmless: bool) -> Self {
-        Self { method: method.into(), why: why.to_string(), harmless }
+        Self {
+            method: method.into(),
+            why: why.to_string(),
+            harmless,
+        }
     }
 }
 
@@ -187,8 +191,15 @@ impl Table {
     }
 
     fn finish(mut self) -> Self {
-        let points: Vec<Option<(f64, f64)>> =
-            self.costs.iter().map(|c| c.error().filter(|_| c.method != NONE).map(|error| (self.time(c), error))).collect();
+        let points: Vec<Option<(f64, f64)>> = self
+            .costs
+            .iter()
+            .map(|c| {
+                c.error()
+                    .filter(|_| c.method != NONE)
+                    .map(|error| (self.time(c), error))
+            })
+            .collect();
         for (cost, on) in self.costs.iter_mut().zip(front(&points)) {
             cost.on_front = on;
         }
@@ -204,7 +215,10 @@ impl Table {
 pub fn front(points: &[Option<(f64, f64)>]) -> Vec<bool> {
     let usable = |p: &Option<(f64, f64)>| p.filter(|(t, e)| !t.is_nan() && !e.is_nan());
     let dominates = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
-    points.iter().map(|p| usable(p).is_some_and(|p| !points.iter().filter_map(usable).any(|q| dominates(q, p)))).collect()
+    points
+        .iter()
+        .map(|p| usable(p).is_some_and(|p| !points.iter().filter_map(usable).any(|q| dominates(q, p))))
+        .collect()
 }
 
 /// The list, the answer, and how to measure.
@@ -235,7 +249,11 @@ impl Setting<'_> {
 
     fn check(&self) -> Result<(), MethodsError> {
         self.plan.validate()?;
-        if self.list().is_empty() { Err(MethodsError::NoFragments) } else { Ok(()) }
+        if self.list().is_empty() {
+            Err(MethodsError::NoFragments)
+        } else {
+            Ok(())
+        }
     }
 
     /// A row without times, from how a method did.
@@ -268,7 +286,12 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// [`MethodsError`] where the plan is none or the list empty.
-    pub fn on_cpu(&self, adapter: &str, contenders: &[Contender], progress: &dyn Fn(u64)) -> Result<Table, MethodsError> {
+    pub fn on_cpu(
+        &self,
+        adapter: &str,
+        contenders: &[Contender],
+        progress: &dyn Fn(u64),
+    ) -> Result<Table, MethodsError> {
         self.check()?;
         let networks: Vec<Option<Neural>> = contenders
             .iter()
@@ -303,16 +326,28 @@ impl Setting<'_> {
             let apart = network.is_none();
             let timed = move || {
                 let start = Instant::now();
-                let accumulated = method.accumulate(self.list(), self.context).map_err(EvaluateError::from)?;
+                let accumulated = method
+                    .accumulate(self.list(), self.context)
+                    .map_err(EvaluateError::from)?;
                 let accumulate = start.elapsed().as_secs_f64();
                 black_box(oit::weights(self.list(), &*accumulated));
                 let both = start.elapsed().as_secs_f64();
                 Ok((both, apart.then_some([accumulate, both - accumulate])))
             };
-            entrants.push(Entrant { cost, timed: Box::new(timed) });
+            entrants.push(Entrant {
+                cost,
+                timed: Box::new(timed),
+            });
         }
         let costs = self.take_turns(entrants, progress)?;
-        Ok(Table { adapter: adapter.to_owned(), clock: Clock::Wall, front_is_of: FrontTime::Both, costs, left_out }.finish())
+        Ok(Table {
+            adapter: adapter.to_owned(),
+            clock: Clock::Wall,
+            front_is_of: FrontTime::Both,
+            costs,
+            left_out,
+        }
+        .finish())
     }
 
     /// What methods cost on a GPU in compute passes over the list: pass 1 a thread a pixel, pass 2 a thread a fragment. Errors are those of the GPU's own weights.
@@ -322,7 +357,13 @@ impl Setting<'_> {
     ///
     /// # Errors
     /// [`MethodsError`].
-    pub fn on_gpu(&self, gpu: &Gpu, contenders: &[Contender], formats: &[Format], progress: &dyn Fn(u64)) -> Result<Table, MethodsError> {
+    pub fn on_gpu(
+        &self,
+        gpu: &Gpu,
+        contenders: &[Contender],
+        formats: &[Format],
+        progress: &dyn Fn(u64),
+    ) -> Result<Table, MethodsError> {
         self.check()?;
         let adapter = gpu.name();
         let clock = if gpu.stamps() { Clock::Device } else { Clock::Wall };
@@ -357,23 +398,54 @@ impl Setting<'_> {
                 let s = passes.run(gpu).map_err(refused(&shader.name))?;
                 Ok((s.accumulate + s.weights, Some([s.accumulate, s.weights])))
             };
-            entrants.push(Entrant { cost, timed: Box::new(timed) });
+            entrants.push(Entrant {
+                cost,
+                timed: Box::new(timed),
+            });
         }
         let costs = self.take_turns(entrants, progress)?;
-        Ok(Table { adapter, clock, front_is_of: FrontTime::Weights, costs, left_out }.finish())
+        Ok(Table {
+            adapter,
+            clock,
+            front_is_of: FrontTime::Weights,
+            costs,
+            left_out,
+        }
+        .finish())
     }
 
     /// Shaders of all contenders that have one, the empty one first.
-    fn shaders(&self, contenders: &[Contender], formats: &[Format], half: bool, left_out: &mut Vec<LeftOut>) -> Vec<(MethodShader, About)> {
+    fn shaders(
+        &self,
+        contenders: &[Contender],
+        formats: &[Format],
+        half: bool,
+        left_out: &mut Vec<LeftOut>,
+    ) -> Vec<(MethodShader, About)> {
         // b0 in f32, and a colour target of four half-precision channels.
-        let none = About { bits: 96, transmittance: true, network: None, format: None, arithmetic: "f32" };
+        let none = About {
+            bits: 96,
+            transmittance: true,
+            network: None,
+            format: None,
+            arithmetic: "f32",
+        };
         let mut shaders = vec![(MethodShader::empty(NONE), none)];
         for contender in contenders {
             match contender {
                 Contender::Method(method) => match MethodShader::classic(&method.name()) {
                     Some(shader) => {
                         let (bits, transmittance) = (method.bits_per_pixel(), method.weights_are_transmittance());
-                        shaders.push((shader, About { bits, transmittance, network: None, format: None, arithmetic: "f32" }));
+                        shaders.push((
+                            shader,
+                            About {
+                                bits,
+                                transmittance,
+                                network: None,
+                                format: None,
+                                arithmetic: "f32",
+                            },
+                        ));
                     }
                     None => left_out.push(LeftOut::new(method.name(), "has no shader", true)),
                 },
@@ -381,7 +453,11 @@ impl Setting<'_> {
                     let neural = Neural::new((**mlp).clone());
                     for &format in formats {
                         if !half && is_half(format) {
-                            left_out.push(LeftOut::new(contender.name(), format!("{}: the adapter has no f16", format.name()), true));
+                            left_out.push(LeftOut::new(
+                                contender.name(),
+                                format!("{}: the adapter has no f16", format.name()),
+                                true,
+                            ));
                             continue;
                         }
                         match MethodShader::neural(mlp, format).map(|shader| shader.with_skip(self.skip)) {
@@ -419,7 +495,11 @@ impl Setting<'_> {
                     }
                 }
                 // A failure fills the sample, so that no more calls are made.
-                Ok(if failed.is_some() { self.plan.sample_seconds } else { start.elapsed().as_secs_f64().max(1e-9) })
+                Ok(if failed.is_some() {
+                    self.plan.sample_seconds
+                } else {
+                    start.elapsed().as_secs_f64().max(1e-9)
+                })
             })?;
             if let Some(error) = failed {
                 return Err(error);
@@ -442,7 +522,10 @@ impl Setting<'_> {
                 // A clock that stood still has counted less than its own step.
                 cost.both.push(both.max(1e-9));
                 if let Some([accumulate, weights]) = passes {
-                    let samples = cost.passes.get_or_insert(Passed { accumulate: Vec::new(), weights: Vec::new() });
+                    let samples = cost.passes.get_or_insert(Passed {
+                        accumulate: Vec::new(),
+                        weights: Vec::new(),
+                    });
                     samples.accumulate.push(accumulate.max(1e-9));
                     samples.weights.push(weights.max(1e-9));
                 }
@@ -488,13 +571,21 @@ impl Method for Given {
         self.transmittance
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         let rule = match self.composite {
             Composite::Normalised => None,
             Composite::Sum => Some(oit::weighted_sum::WeightedSum.accumulate(list, context)?),
             Composite::Average => Some(oit::weighted_average::WeightedAverage.accumulate(list, context)?),
         };
-        Ok(Box::new(GivenWeights { weights: &self.weights, list, rule }))
+        Ok(Box::new(GivenWeights {
+            weights: &self.weights,
+            list,
+            rule,
+        }))
     }
 }
 
@@ -524,25 +615,51 @@ mod tests {
     use crate::model::Provenance;
     use crate::model::mlp::tests::random_mlp;
 
-    const PLAN: Plan = Plan { repeat: 2, sample_seconds: 1e-4 };
+    const PLAN: Plan = Plan {
+        repeat: 2,
+        sample_seconds: 1e-4,
+    };
 
     /// The front by hand: what is dominated, equal, NaN or without error.
     #[test]
     fn the_front_by_hand() {
-        let points =
-            [Some((1.0, 5.0)), Some((2.0, 3.0)), Some((2.5, 3.0)), Some((3.0, 4.0)), Some((4.0, 1.0)), Some((0.5, f64::NAN)), None, Some((1.0, 5.0))];
+        let points = [
+            Some((1.0, 5.0)),
+            Some((2.0, 3.0)),
+            Some((2.5, 3.0)),
+            Some((3.0, 4.0)),
+            Some((4.0, 1.0)),
+            Some((0.5, f64::NAN)),
+            None,
+            Some((1.0, 5.0)),
+        ];
         assert_eq!(front(&points), [true, true, false, false, true, false, false, true]);
         assert_eq!(front(&[]), Vec::<bool>::new());
     }
 
     fn list() -> FragmentList {
-        crate::scene::build(&crate::scene::open("spheres").unwrap(), &crate::scene::Options { size: Some((24, 24)), seed: None }).unwrap()
+        crate::scene::build(
+            &crate::scene::open("spheres").unwrap(),
+            &crate::scene::Options {
+                size: Some((24, 24)),
+                seed: None,
+            },
+        )
+        .unwrap()
     }
 
     fn contenders() -> Vec<Contender> {
-        let mlp = Mlp::new("r", FeatureSet::Recentred, random_mlp(&[4], 1).layers().to_vec(), Provenance::default()).unwrap();
-        let mut all: Vec<Contender> =
-            ["moment-power-4", "weighted-average", "abuffer"].map(|n| Contender::Method(oit::parse(n).unwrap())).into_iter().collect();
+        let mlp = Mlp::new(
+            "r",
+            FeatureSet::Recentred,
+            random_mlp(&[4], 1).layers().to_vec(),
+            Provenance::default(),
+        )
+        .unwrap();
+        let mut all: Vec<Contender> = ["moment-power-4", "weighted-average", "abuffer"]
+            .map(|n| Contender::Method(oit::parse(n).unwrap()))
+            .into_iter()
+            .collect();
         all.push(Contender::Network(Box::new(mlp)));
         all
     }
@@ -552,19 +669,35 @@ mod tests {
     fn cpu_rows_are_complete() {
         let list = list();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
+        let setting = Setting {
+            truth: &truth,
+            context: Context::default(),
+            plan: PLAN,
+            skip: Skip::Exact,
+        };
         let table = setting.on_cpu("this CPU", &contenders(), &|_| {}).unwrap();
         assert_eq!((table.costs.len(), table.left_out.len()), (4, 0));
         assert!(table.costs.windows(2).all(|c| table.time(&c[0]) <= table.time(&c[1])));
         for cost in &table.costs {
-            assert!(cost.both.len() == 2 && cost.both.iter().all(|s| *s > 0.0) && cost.adapter == "this CPU" && cost.calls >= 1);
+            assert!(
+                cost.both.len() == 2
+                    && cost.both.iter().all(|s| *s > 0.0)
+                    && cost.adapter == "this CPU"
+                    && cost.calls >= 1
+            );
             assert_eq!(cost.passes.is_none(), cost.network.is_some());
         }
         let exact = table.costs.iter().find(|c| c.method == "abuffer").unwrap();
         assert!(exact.on_front && exact.image_mse == Some(0.0));
-        let expected = truth.judge(&*oit::parse("moment-power-4").unwrap(), Context::default()).unwrap().result;
+        let expected = truth
+            .judge(&*oit::parse("moment-power-4").unwrap(), Context::default())
+            .unwrap()
+            .result;
         let found = table.costs.iter().find(|c| c.method == "moment-power-4").unwrap();
-        assert_eq!((found.image_mse, found.flip_mean), (expected.image_mse, expected.flip_mean));
+        assert_eq!(
+            (found.image_mse, found.flip_mean),
+            (expected.image_mse, expected.flip_mean)
+        );
     }
 
     /// On the GPU errors come of its own weights: those of the f32 twin are near the CPU's, and not the same number.
@@ -573,16 +706,41 @@ mod tests {
         let Some(gpu) = crate::gpu::tests::gpu() else { return };
         let list = list();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
-        let table = setting.on_gpu(gpu, &contenders(), &[Format::Wgsl, Format::WgslPlain], &|_| {}).unwrap();
+        let setting = Setting {
+            truth: &truth,
+            context: Context::default(),
+            plan: PLAN,
+            skip: Skip::Exact,
+        };
+        let table = setting
+            .on_gpu(gpu, &contenders(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
+            .unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
-        assert!(names.len() == 5 && names.contains(&NONE) && names.iter().filter(|n| **n == "neural:r").count() == 2, "{names:?}");
+        assert!(
+            names.len() == 5 && names.contains(&NONE) && names.iter().filter(|n| **n == "neural:r").count() == 2,
+            "{names:?}"
+        );
         assert_eq!(table.left_out, [LeftOut::new("abuffer", "has no shader", true)]);
-        assert!(table.costs.iter().all(|c| c.passes.as_ref().is_some_and(|p| p.weights.len() == 2 && p.accumulate.len() == 2)));
+        assert!(table.costs.iter().all(|c| {
+            c.passes
+                .as_ref()
+                .is_some_and(|p| p.weights.len() == 2 && p.accumulate.len() == 2)
+        }));
         assert!(table.costs.iter().all(|c| c.method != NONE || !c.on_front) && table.costs.iter().any(|c| c.on_front));
         for name in ["moment-power-4", "weighted-average"] {
-            let expected = truth.judge(&*oit::parse(name).unwrap(), Context::default()).unwrap().result.image_mse.unwrap();
-            let found = table.costs.iter().find(|c| c.method == name).unwrap().image_mse.unwrap();
+            let expected = truth
+                .judge(&*oit::parse(name).unwrap(), Context::default())
+                .unwrap()
+                .result
+                .image_mse
+                .unwrap();
+            let found = table
+                .costs
+                .iter()
+                .find(|c| c.method == name)
+                .unwrap()
+                .image_mse
+                .unwrap();
             assert!((found / expected - 1.0).abs() < 0.05, "{name}: {found:e} {expected:e}");
             if name == "moment-power-4" {
                 assert_ne!(found, expected);
@@ -597,8 +755,19 @@ mod tests {
         let truth = Truth::new(&list, [1.0; 3]);
         let mut weights = vec![1.0; list.len()];
         weights[3] = f64::NAN;
-        let given = Given { name: "given".to_owned(), bits: 1, transmittance: true, composite: Composite::Normalised, weights };
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
+        let given = Given {
+            name: "given".to_owned(),
+            bits: 1,
+            transmittance: true,
+            composite: Composite::Normalised,
+            weights,
+        };
+        let setting = Setting {
+            truth: &truth,
+            context: Context::default(),
+            plan: PLAN,
+            skip: Skip::Exact,
+        };
         let cost = setting.cost(&given, "none", Clock::Wall).unwrap();
         assert!(cost.nonfinite == 1 && cost.image_mse.unwrap().is_nan() && cost.transmittance_mse.unwrap().is_nan());
     }
@@ -607,18 +776,45 @@ mod tests {
     fn errors_say_what_is_wrong() {
         let empty = FragmentList::new(vec![0, 0], vec![], vec![], None).unwrap();
         let truth = Truth::new(&empty, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
-        assert!(setting.on_cpu("", &[], &|_| {}).unwrap_err().to_string().contains("no fragments"));
-        let no = Setting { plan: Plan { repeat: 0, ..PLAN }, ..setting };
-        assert!(no.on_cpu("", &[], &|_| {}).unwrap_err().to_string().contains("repetitions"));
+        let setting = Setting {
+            truth: &truth,
+            context: Context::default(),
+            plan: PLAN,
+            skip: Skip::Exact,
+        };
+        assert!(
+            setting
+                .on_cpu("", &[], &|_| {})
+                .unwrap_err()
+                .to_string()
+                .contains("no fragments")
+        );
+        let no = Setting {
+            plan: Plan { repeat: 0, ..PLAN },
+            ..setting
+        };
+        assert!(
+            no.on_cpu("", &[], &|_| {})
+                .unwrap_err()
+                .to_string()
+                .contains("repetitions")
+        );
         // Without planes one weight cannot be had; the others can.
         let list = FragmentList::new(vec![0, 2], vec![1.0, 2.0], vec![0.5, 0.5], None).unwrap();
         let truth = Truth::new(&list, [1.0; 3]);
-        let setting = Setting { truth: &truth, context: Context::default(), plan: PLAN, skip: Skip::Exact };
+        let setting = Setting {
+            truth: &truth,
+            context: Context::default(),
+            plan: PLAN,
+            skip: Skip::Exact,
+        };
         let both = ["weighted-blended:mb13-10", "moment-power-4"].map(|n| Contender::Method(oit::parse(n).unwrap()));
         let table = setting.on_cpu("", &both, &|_| {}).unwrap();
         assert!(
-            table.costs.len() == 1 && table.left_out.len() == 1 && table.left_out[0].why.contains("--near") && !table.left_out[0].harmless,
+            table.costs.len() == 1
+                && table.left_out.len() == 1
+                && table.left_out[0].why.contains("--near")
+                && !table.left_out[0].harmless,
             "{:?}",
             table.left_out
         );

@@ -21,7 +21,7 @@ use crate::train::BackendError;
 use std::time::{Duration, Instant};
 
 /// Most calls of one repetition: a call that seems to take no time at all must not be made for ever.
-const MOST_CALLS: u64 = 1 << 24;
+const MAX_CALLS: u64 = 1 << 24;
 
 /// How often something is measured, and for how long each time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,7 +54,9 @@ pub enum BenchError {
         reason: String,
     },
     /// The network and the rows have different widths.
-    #[error("network {network} takes {found} features, but the rows have {expected}; choose a network that starts with {expected}")]
+    #[error(
+        "network {network} takes {found} features, but the rows have {expected}; choose a network that starts with {expected}"
+    )]
     Width {
         /// The network.
         network: String,
@@ -94,14 +96,32 @@ impl Plan {
     /// # Errors
     /// [`BenchError::Value`].
     pub fn validate(&self) -> Result<(), BenchError> {
-        check((1..=100_000).contains(&self.repeat), "repetitions", self.repeat, "from 1 to 100000")?;
+        check(
+            (1..=100_000).contains(&self.repeat),
+            "repetitions",
+            self.repeat,
+            "from 1 to 100000",
+        )?;
         let seconds = self.sample_seconds;
-        check(seconds > 0.0 && seconds <= 3600.0, "seconds of a sample", seconds, "greater than 0 and at most 3600")
+        check(
+            seconds > 0.0 && seconds <= 3600.0,
+            "seconds of a sample",
+            seconds,
+            "greater than 0 and at most 3600",
+        )
     }
 }
 
 fn check(ok: bool, field: &'static str, value: impl ToString, expected: &'static str) -> Result<(), BenchError> {
-    if ok { Ok(()) } else { Err(BenchError::Value { field, value: value.to_string(), expected }) }
+    if ok {
+        Ok(())
+    } else {
+        Err(BenchError::Value {
+            field,
+            value: value.to_string(),
+            expected,
+        })
+    }
 }
 
 /// Something to measure.
@@ -113,7 +133,10 @@ pub struct Subject<'a> {
 impl<'a> Subject<'a> {
     /// A call that does some work and says how much: samples, pairs, rows, floating-point operations.
     pub fn new(call: impl FnMut() -> Result<u64, BenchError> + 'a) -> Self {
-        Self { call: Box::new(call), rest: Duration::ZERO }
+        Self {
+            call: Box::new(call),
+            rest: Duration::ZERO,
+        }
     }
 
     /// The same with a pause after each of its repetitions: threads that wait for more work by spinning must not slow the next subject down.
@@ -137,17 +160,22 @@ impl<'a> Subject<'a> {
     /// Warms up, and says how many calls fill a sample.
     fn calls(&mut self, plan: Plan) -> Result<u64, BenchError> {
         self.time(1)?;
-        calls_that_fill(plan.sample_seconds, |calls| self.time(calls).map(|(seconds, _)| seconds))
+        calls_that_fill(plan.sample_seconds, |calls| {
+            self.time(calls).map(|(seconds, _)| seconds)
+        })
     }
 }
 
 /// Doubles the number of calls until they take half a sample's time, and goes on from there in proportion. `time` says how long so many calls take \[s\].
-fn calls_that_fill(sample_seconds: f64, mut time: impl FnMut(u64) -> Result<f64, BenchError>) -> Result<u64, BenchError> {
+fn calls_that_fill(
+    sample_seconds: f64,
+    mut time: impl FnMut(u64) -> Result<f64, BenchError>,
+) -> Result<u64, BenchError> {
     let mut calls = 1;
     loop {
         let seconds = time(calls)?;
-        if seconds >= 0.5 * sample_seconds || calls >= MOST_CALLS {
-            return Ok(((calls as f64 * sample_seconds / seconds).ceil() as u64).clamp(1, MOST_CALLS));
+        if seconds >= 0.5 * sample_seconds || calls >= MAX_CALLS {
+            return Ok(((calls as f64 * sample_seconds / seconds).ceil() as u64).clamp(1, MAX_CALLS));
         }
         calls *= 2;
     }
@@ -172,7 +200,11 @@ pub fn measure(plan: Plan, subjects: &mut [Subject<'_>], progress: &dyn Fn(u64))
     plan.validate()?;
     let mut samples = Vec::new();
     for subject in &mut *subjects {
-        samples.push(Samples { calls: subject.calls(plan)?, seconds: Vec::new(), rates: Vec::new() });
+        samples.push(Samples {
+            calls: subject.calls(plan)?,
+            seconds: Vec::new(),
+            rates: Vec::new(),
+        });
     }
     for repetition in 1..=plan.repeat {
         for (subject, samples) in subjects.iter_mut().zip(&mut samples) {
@@ -235,7 +267,10 @@ mod tests {
     use super::*;
     use std::cell::RefCell;
 
-    const PLAN: Plan = Plan { repeat: 3, sample_seconds: 1e-5 };
+    const PLAN: Plan = Plan {
+        repeat: 3,
+        sample_seconds: 1e-5,
+    };
 
     /// Repetitions take subjects in turn, each as often as its warm-up found, and count all its work.
     #[test]
@@ -255,7 +290,12 @@ mod tests {
         assert_eq!(told.into_inner(), [1, 2, 3]);
         for s in samples {
             assert_eq!((s.calls, s.seconds.len(), s.rates.len()), (1, 3, 3));
-            assert!(s.seconds.iter().zip(&s.rates).all(|(s, r)| *s >= 200e-6 && (s * r - 5.0).abs() < 1e-9));
+            assert!(
+                s.seconds
+                    .iter()
+                    .zip(&s.rates)
+                    .all(|(s, r)| *s >= 200e-6 && (s * r - 5.0).abs() < 1e-9)
+            );
         }
     }
 
@@ -263,15 +303,33 @@ mod tests {
     fn short_calls_fill_a_sample() {
         let of = |seconds: f64| calls_that_fill(1.0, |calls| Ok(calls as f64 * seconds)).unwrap();
         assert_eq!([2.0, 1.0, 0.4, 1.0 / 1024.0].map(of), [1, 1, 3, 1024]);
-        assert_eq!(of(1e-12), MOST_CALLS);
+        assert_eq!(of(1e-12), MAX_CALLS);
     }
 
     #[test]
     fn errors_end_the_measurement() {
         let mut subjects = [Subject::new(|| Err(BenchError::Onnxruntime("no".into())))];
-        assert_eq!(measure(PLAN, &mut subjects, &|_| {}).unwrap_err().to_string(), "onnxruntime: no");
-        for plan in [Plan { repeat: 0, ..PLAN }, Plan { sample_seconds: 0.0, ..PLAN }, Plan { sample_seconds: f64::NAN, ..PLAN }] {
-            assert!(measure(plan, &mut [], &|_| {}).unwrap_err().to_string().contains("must be"));
+        assert_eq!(
+            measure(PLAN, &mut subjects, &|_| {}).unwrap_err().to_string(),
+            "onnxruntime: no"
+        );
+        for plan in [
+            Plan { repeat: 0, ..PLAN },
+            Plan {
+                sample_seconds: 0.0,
+                ..PLAN
+            },
+            Plan {
+                sample_seconds: f64::NAN,
+                ..PLAN
+            },
+        ] {
+            assert!(
+                measure(plan, &mut [], &|_| {})
+                    .unwrap_err()
+                    .to_string()
+                    .contains("must be")
+            );
         }
     }
 }

@@ -3,14 +3,14 @@
 use super::BenchError;
 use crate::dataset::Rows;
 use crate::features::FeatureSet;
-use crate::model::mlp::MOST_UNITS;
+use crate::model::mlp::MAX_UNITS;
 use crate::model::{Mlp, Provenance};
 use crate::numeric::rng::stream;
 use crate::train::initial;
 use rand::RngExt;
 
 /// Most rows that a benchmark holds in memory.
-pub const MOST_ROWS: usize = 1 << 26;
+pub const MAX_ROWS: usize = 1 << 26;
 
 /// Keeps the random rows of benchmarks apart from all other random numbers.
 const PURPOSE: u64 = 0x100b;
@@ -30,22 +30,38 @@ impl std::str::FromStr for Network {
 
     /// "7-32-16-1", on the first feature set that is as wide: `paper` for 7, `recentred-6` for 9, `recentred-8` for 11.
     fn from_str(text: &str) -> Result<Self, BenchError> {
-        let wrong = |reason: String| BenchError::Network { text: text.to_owned(), reason };
-        let sizes: Vec<usize> =
-            text.split('-').map(|part| part.parse()).collect::<Result<_, _>>().map_err(|_| wrong("its sizes are not all numbers".to_owned()))?;
+        let wrong = |reason: String| BenchError::Network {
+            text: text.to_owned(),
+            reason,
+        };
+        let sizes: Vec<usize> = text
+            .split('-')
+            .map(|part| part.parse())
+            .collect::<Result<_, _>>()
+            .map_err(|_| wrong("its sizes are not all numbers".to_owned()))?;
         if sizes.len() < 2 {
             return Err(wrong("it has no layer".to_owned()));
         }
-        if let Some(size) = sizes.iter().find(|s| !(1..=MOST_UNITS).contains(*s)) {
-            return Err(wrong(format!("a layer of {size} units is not from 1 to {MOST_UNITS}")));
+        if let Some(size) = sizes.iter().find(|s| !(1..=MAX_UNITS).contains(*s)) {
+            return Err(wrong(format!("a layer of {size} units is not from 1 to {MAX_UNITS}")));
         }
         if sizes[sizes.len() - 1] != 1 {
             return Err(wrong(format!("it ends in {} numbers", sizes[sizes.len() - 1])));
         }
-        let set = FeatureSet::ALL.into_iter().find(|set| set.width() == sizes[0]).ok_or_else(|| {
-            let widths: Vec<String> = FeatureSet::ALL.iter().map(|set| format!("{} ({})", set.width(), set.name())).collect();
-            wrong(format!("no feature set is {} wide, but {}", sizes[0], widths.join(", ")))
-        })?;
+        let set = FeatureSet::ALL
+            .into_iter()
+            .find(|set| set.width() == sizes[0])
+            .ok_or_else(|| {
+                let widths: Vec<String> = FeatureSet::ALL
+                    .iter()
+                    .map(|set| format!("{} ({})", set.width(), set.name()))
+                    .collect();
+                wrong(format!(
+                    "no feature set is {} wide, but {}",
+                    sizes[0],
+                    widths.join(", ")
+                ))
+            })?;
         Ok(Self { set, sizes })
     }
 }
@@ -65,7 +81,11 @@ impl Network {
     pub fn on(self, set: FeatureSet) -> Result<Self, BenchError> {
         match set.width() == self.sizes[0] {
             true => Ok(Self { set, ..self }),
-            false => Err(BenchError::Width { network: self.to_string(), found: self.sizes[0], expected: set.width() }),
+            false => Err(BenchError::Width {
+                network: self.to_string(),
+                found: self.sizes[0],
+                expected: set.width(),
+            }),
         }
     }
 
@@ -94,7 +114,12 @@ impl Network {
     /// # Errors
     /// [`BenchError::Shape`].
     pub fn mlp(&self) -> Result<Mlp, BenchError> {
-        Ok(Mlp::new("bench", self.set, initial::layers(&self.shapes(), &self.parameters())?, Provenance::default())?)
+        Ok(Mlp::new(
+            "bench",
+            self.set,
+            initial::layers(&self.shapes(), &self.parameters())?,
+            Provenance::default(),
+        )?)
     }
 }
 
@@ -154,14 +179,22 @@ mod tests {
 
     #[test]
     fn texts_become_networks_or_errors() {
-        for (text, set) in [("7-32-16-1", FeatureSet::Paper), ("9-8-1", FeatureSet::Recentred6), ("11-1", FeatureSet::Recentred8)] {
+        for (text, set) in [
+            ("7-32-16-1", FeatureSet::Paper),
+            ("9-8-1", FeatureSet::Recentred6),
+            ("11-1", FeatureSet::Recentred8),
+        ] {
             let network: Network = text.parse().unwrap();
             assert_eq!((network.feature_set(), network.to_string().as_str()), (set, text));
             assert_eq!(network.mlp().unwrap().shape(), text);
         }
         let recentred = "7-4-1".parse::<Network>().unwrap().on(FeatureSet::Recentred).unwrap();
-        assert_eq!((recentred.feature_set(), recentred.hidden()), (FeatureSet::Recentred, &[4][..]));
-        let errors = ["7", "", "7-x-1", "7-0-1", "7-32-16", "8-32-16-1", "7-99999-1"].map(|text| text.parse::<Network>().unwrap_err().to_string());
+        assert_eq!(
+            (recentred.feature_set(), recentred.hidden()),
+            (FeatureSet::Recentred, &[4][..])
+        );
+        let errors = ["7", "", "7-x-1", "7-0-1", "7-32-16", "8-32-16-1", "7-99999-1"]
+            .map(|text| text.parse::<Network>().unwrap_err().to_string());
         let other = recentred.on(FeatureSet::Recentred8).unwrap_err().to_string();
         insta::assert_snapshot!(errors.join("\n") + "\n" + &other);
     }

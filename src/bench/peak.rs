@@ -20,7 +20,10 @@ const NARROW_CHAINS: usize = 6;
 #[inline(always)]
 fn chains<S: Simd, const N: usize>(simd: S) -> (f32, u64) {
     // x ← 0.999 x + 0.001 tends to 1 from anywhere: no denormal numbers, no infinities, and nothing for a compiler to foresee.
-    let (factor, summand) = (f32x16::splat(simd, black_box(0.999)), f32x16::splat(simd, black_box(0.001)));
+    let (factor, summand) = (
+        f32x16::splat(simd, black_box(0.999)),
+        f32x16::splat(simd, black_box(0.001)),
+    );
     let mut x: [f32x16<S>; N] = std::array::from_fn(|i| f32x16::splat(simd, black_box(i as f32)));
     for _ in 0..LENGTH {
         for x in &mut x {
@@ -33,7 +36,11 @@ fn chains<S: Simd, const N: usize>(simd: S) -> (f32, u64) {
 
 #[inline(always)]
 fn best<S: Simd>(simd: S) -> (f32, u64) {
-    if wide::<S>() { chains::<S, WIDE_CHAINS>(simd) } else { chains::<S, NARROW_CHAINS>(simd) }
+    if wide::<S>() {
+        chains::<S, WIDE_CHAINS>(simd)
+    } else {
+        chains::<S, NARROW_CHAINS>(simd)
+    }
 }
 
 /// The sum of all chains on one core, and the floating-point operations that they took.

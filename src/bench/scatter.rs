@@ -80,8 +80,13 @@ fn places(at: &[(f64, f64)], labels: &[&str], lines: &[[(f64, f64); 2]], frame: 
                 let outside = w * h - overlap(&place, frame);
                 let covered: f64 = taken.iter().map(|t| overlap(&place, t)).sum();
                 let crossed: f64 = leaders.iter().map(|l| crossing(&place, l[0], l[1])).sum();
-                let led = if reach > 9.0 { taken.iter().map(|t| crossing(t, (x, y), (cx, cy)) * 0.5).sum::<f64>() } else { 0.0 };
-                let cost = 40.0 * outside + 40.0 * covered + crossed + led + 1.2 * reach + if turn == 0 { 0.0 } else { 3.0 };
+                let led = if reach > 9.0 {
+                    taken.iter().map(|t| crossing(t, (x, y), (cx, cy)) * 0.5).sum::<f64>()
+                } else {
+                    0.0
+                };
+                let cost =
+                    40.0 * outside + 40.0 * covered + crossed + led + 1.2 * reach + if turn == 0 { 0.0 } else { 3.0 };
                 if cost < best.0 {
                     best = (cost, place);
                 }
@@ -144,7 +149,9 @@ pub fn is_drawn(point: &Point) -> bool {
 fn draw(captions: &Captions, points: &[Point], text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
     let root = SVGBackend::with_string(text, (WIDTH as u32, HEIGHT as u32)).into_drawing_area();
     root.fill(&WHITE)?;
-    let font = |size: f64, color: RGBColor, h: HPos, v: VPos| ("sans-serif", size).into_font().color(&color).pos(Pos::new(h, v));
+    let font = |size: f64, color: RGBColor, h: HPos, v: VPos| {
+        ("sans-serif", size).into_font().color(&color).pos(Pos::new(h, v))
+    };
     let write = |s: &str, at: (i32, i32), style: TextStyle<'_>| root.draw(&Text::new(s.to_owned(), at, style));
     let dark = RGBColor(30, 30, 30);
     let [left, right, top, bottom] = FRAME;
@@ -152,10 +159,17 @@ fn draw(captions: &Captions, points: &[Point], text: &mut String) -> Result<(), 
 
     let mut drawn: Vec<&Point> = points.iter().filter(|p| is_drawn(p)).collect();
     // The front from left to right; labels of what lies on it are placed first.
-    drawn.sort_by(|a, b| b.on_front.cmp(&a.on_front).then(a.time.total_cmp(&b.time)).then_with(|| a.label.cmp(&b.label)));
+    drawn.sort_by(|a, b| {
+        b.on_front
+            .cmp(&a.on_front)
+            .then(a.time.total_cmp(&b.time))
+            .then_with(|| a.label.cmp(&b.label))
+    });
     let range = |of: fn(&Point) -> f64| {
         let logs: Vec<f64> = drawn.iter().map(|p| of(p).log10()).collect();
-        let (low, high) = logs.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        let (low, high) = logs
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
         let (low, high) = if low.is_finite() { (low, high) } else { (0.0, 1.0) };
         let margin = (0.06 * (high - low)).max(0.05);
         (low - margin, high + margin)
@@ -169,34 +183,81 @@ fn draw(captions: &Captions, points: &[Point], text: &mut String) -> Result<(), 
     for tick in ticks(x0, x1) {
         let x = x_of(tick).round() as i32;
         root.draw(&PathElement::new(vec![(x, top), (x, bottom)], grid.stroke_width(1)))?;
-        write(&number(tick), (x, bottom + 6), font(13.0, dark, HPos::Center, VPos::Top))?;
+        write(
+            &number(tick),
+            (x, bottom + 6),
+            font(13.0, dark, HPos::Center, VPos::Top),
+        )?;
     }
     for tick in ticks(y0, y1) {
         let y = y_of(tick).round() as i32;
         root.draw(&PathElement::new(vec![(left, y), (right, y)], grid.stroke_width(1)))?;
-        write(&number(tick), (left - 8, y), font(13.0, dark, HPos::Right, VPos::Center))?;
+        write(
+            &number(tick),
+            (left - 8, y),
+            font(13.0, dark, HPos::Right, VPos::Center),
+        )?;
     }
-    root.draw(&PathElement::new(vec![(left, top), (left, bottom), (right, bottom)], dark.stroke_width(1)))?;
-    write(&captions.time, ((left + right) / 2, bottom + 28), font(15.0, dark, HPos::Center, VPos::Top))?;
-    let side = ("sans-serif", 15.0).into_font().transform(FontTransform::Rotate270).color(&dark).pos(Pos::new(HPos::Center, VPos::Top));
+    root.draw(&PathElement::new(
+        vec![(left, top), (left, bottom), (right, bottom)],
+        dark.stroke_width(1),
+    ))?;
+    write(
+        &captions.time,
+        ((left + right) / 2, bottom + 28),
+        font(15.0, dark, HPos::Center, VPos::Top),
+    )?;
+    let side = ("sans-serif", 15.0)
+        .into_font()
+        .transform(FontTransform::Rotate270)
+        .color(&dark)
+        .pos(Pos::new(HPos::Center, VPos::Top));
     write(&captions.error, (12, (top + bottom) / 2), side)?;
-    write(&captions.foot, (left, HEIGHT - 22), font(13.0, dark, HPos::Left, VPos::Top))?;
+    write(
+        &captions.foot,
+        (left, HEIGHT - 22),
+        font(13.0, dark, HPos::Left, VPos::Top),
+    )?;
 
     let at: Vec<(f64, f64)> = drawn.iter().map(|p| (x_of(p.time), y_of(p.error))).collect();
-    let front: Vec<(f64, f64)> = at.iter().zip(&drawn).filter(|(_, p)| p.on_front).map(|(&a, _)| a).collect();
+    let front: Vec<(f64, f64)> = at
+        .iter()
+        .zip(&drawn)
+        .filter(|(_, p)| p.on_front)
+        .map(|(&a, _)| a)
+        .collect();
     // Between two methods of the front nothing better is known: it goes in steps.
-    let steps: Vec<(f64, f64)> = front.windows(2).flat_map(|w| [w[0], (w[1].0, w[0].1)]).chain(front.last().copied()).collect();
-    root.draw(&PathElement::new(steps.iter().map(|&p| pixel(p)).collect::<Vec<_>>(), COLORS[2].stroke_width(2)))?;
+    let steps: Vec<(f64, f64)> = front
+        .windows(2)
+        .flat_map(|w| [w[0], (w[1].0, w[0].1)])
+        .chain(front.last().copied())
+        .collect();
+    root.draw(&PathElement::new(
+        steps.iter().map(|&p| pixel(p)).collect::<Vec<_>>(),
+        COLORS[2].stroke_width(2),
+    ))?;
     let lines: Vec<[(f64, f64); 2]> = steps.windows(2).map(|w| [w[0], w[1]]).collect();
     let labels: Vec<&str> = drawn.iter().map(|p| p.label.as_str()).collect();
-    let frame = [f64::from(left) + 2.0, f64::from(top), f64::from(right) + 12.0, f64::from(bottom) - 2.0];
+    let frame = [
+        f64::from(left) + 2.0,
+        f64::from(top),
+        f64::from(right) + 12.0,
+        f64::from(bottom) - 2.0,
+    ];
     for ((place, &point), p) in places(&at, &labels, &lines, &frame).iter().zip(&at).zip(&drawn) {
         let color = COLORS[usize::from(p.network)];
         let end = nearest(place, point);
         if (end.0 - point.0).hypot(end.1 - point.1) > 14.0 {
-            root.draw(&PathElement::new(vec![pixel(point), pixel(end)], color.mix(0.45).stroke_width(1)))?;
+            root.draw(&PathElement::new(
+                vec![pixel(point), pixel(end)],
+                color.mix(0.45).stroke_width(1),
+            ))?;
         }
-        root.draw(&Circle::new(pixel(point), 5, if p.on_front { color.filled() } else { WHITE.filled() }))?;
+        root.draw(&Circle::new(
+            pixel(point),
+            5,
+            if p.on_front { color.filled() } else { WHITE.filled() },
+        ))?;
         root.draw(&Circle::new(pixel(point), 5, color.stroke_width(2)))?;
         let middle = (0.5 * (place[0] + place[2]), 0.5 * (place[1] + place[3]));
         write(&p.label, pixel(middle), font(LABEL, color, HPos::Center, VPos::Center))?;
@@ -210,22 +271,40 @@ mod tests {
     use super::*;
 
     fn point(label: &str, time: f64, error: f64) -> Point {
-        Point { label: label.to_owned(), time, error, on_front: true, network: false }
+        Point {
+            label: label.to_owned(),
+            time,
+            error,
+            on_front: true,
+            network: false,
+        }
     }
 
     fn captions() -> Captions {
-        Captions { title: "a < b".to_owned(), time: "ns".to_owned(), error: "MSE".to_owned(), foot: "left out".to_owned() }
+        Captions {
+            title: "a < b".to_owned(),
+            time: "ns".to_owned(),
+            error: "MSE".to_owned(),
+            foot: "left out".to_owned(),
+        }
     }
 
     /// Twenty points in a heap: no label covers another label or leaves the frame. Control: labels all to the right of their points do.
     #[test]
     fn labels_do_not_overlap() {
-        let at: Vec<(f64, f64)> = (0..20).map(|i| (400.0 + 40.0 * f64::from(i % 5), 300.0 + 12.0 * f64::from(i / 5))).collect();
+        let at: Vec<(f64, f64)> = (0..20)
+            .map(|i| (400.0 + 40.0 * f64::from(i % 5), 300.0 + 12.0 * f64::from(i / 5)))
+            .collect();
         let labels = vec!["moment-power-4+own"; 20];
         let frame = [92.0, 56.0, 988.0, 550.0];
         let collide = |boxes: &[Box4]| (0..20).any(|i| (0..i).any(|j| overlap(&boxes[i], &boxes[j]) > 0.0));
         let found = places(&at, &labels, &[], &frame);
-        assert!(!collide(&found) && found.iter().all(|b| b[0] >= frame[0] && b[2] <= frame[2] && b[1] >= frame[1] && b[3] <= frame[3]));
+        assert!(
+            !collide(&found)
+                && found
+                    .iter()
+                    .all(|b| b[0] >= frame[0] && b[2] <= frame[2] && b[1] >= frame[1] && b[3] <= frame[3])
+        );
         let right: Vec<Box4> = at.iter().map(|(x, y)| [x + 9.0, y - 7.0, x + 135.0, y + 8.0]).collect();
         assert!(collide(&right));
     }
@@ -233,9 +312,20 @@ mod tests {
     /// All that can be drawn is; the rest, and text that looks like markup, does no harm.
     #[test]
     fn the_picture_holds_its_points() {
-        let points = [point("one", 10.0, 1e-4), point("<two>", 100.0, 1e-5), point("exact", 50.0, 0.0), point("lost", 50.0, f64::NAN)];
+        let points = [
+            point("one", 10.0, 1e-4),
+            point("<two>", 100.0, 1e-5),
+            point("exact", 50.0, 0.0),
+            point("lost", 50.0, f64::NAN),
+        ];
         let text = svg(&captions(), &points);
-        assert!(text.starts_with("<svg") && text.contains("one") && text.contains("&lt;two&gt;") && text.contains("a &lt; b"), "{text}");
+        assert!(
+            text.starts_with("<svg")
+                && text.contains("one")
+                && text.contains("&lt;two&gt;")
+                && text.contains("a &lt; b"),
+            "{text}"
+        );
         assert!(!text.contains("exact") && !text.contains("lost") && !text.contains("NaN") && !text.contains("<two>"));
         assert_eq!(text.matches("<circle").count(), 4);
         assert_eq!(svg(&captions(), &points), text);
@@ -247,6 +337,9 @@ mod tests {
     fn ticks_and_their_numbers() {
         assert_eq!(ticks(1.0, 3.5), [10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0]);
         assert_eq!(ticks(-5.2, -0.9).len(), 5);
-        assert_eq!([1e-5, 0.02, 1.5, 20.0, 3e4].map(number), ["1e-5", "0.02", "1.5", "20", "3e4"]);
+        assert_eq!(
+            [1e-5, 0.02, 1.5, 20.0, 3e4].map(number),
+            ["1e-5", "0.02", "1.5", "20", "3e4"]
+        );
     }
 }

@@ -20,7 +20,11 @@ fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
-    if sorted.len() % 2 == 1 { sorted[middle] } else { 0.5 * (sorted[middle - 1] + sorted[middle]) }
+    if sorted.len() % 2 == 1 {
+        sorted[middle]
+    } else {
+        0.5 * (sorted[middle - 1] + sorted[middle])
+    }
 }
 
 impl Summary {
@@ -33,7 +37,12 @@ impl Summary {
         let middle = median(samples);
         let deviations: Vec<f64> = samples.iter().map(|s| (s - middle).abs()).collect();
         let end = |pick: fn(f64, f64) -> f64| samples.iter().copied().reduce(pick).expect("one sample or more");
-        Self { median: middle, min: end(f64::min), max: end(f64::max), mad: median(&deviations) }
+        Self {
+            median: middle,
+            min: end(f64::min),
+            max: end(f64::max),
+            mad: median(&deviations),
+        }
     }
 
     /// Greatest over least.
@@ -55,10 +64,34 @@ mod tests {
     fn statistics_by_hand() {
         let summary = Summary::of(&[5.0, 1.0, 4.0, 2.0, 100.0]);
         // Deviations from 4: 1, 3, 0, 2, 96.
-        assert_eq!(summary, Summary { median: 4.0, min: 1.0, max: 100.0, mad: 2.0 });
+        assert_eq!(
+            summary,
+            Summary {
+                median: 4.0,
+                min: 1.0,
+                max: 100.0,
+                mad: 2.0
+            }
+        );
         assert_eq!((summary.spread(), summary.is_restless()), (100.0, true));
-        assert_eq!(Summary::of(&[3.0, 1.0, 2.0, 10.0]), Summary { median: 2.5, min: 1.0, max: 10.0, mad: 1.0 });
-        assert_eq!(Summary::of(&[7.0]), Summary { median: 7.0, min: 7.0, max: 7.0, mad: 0.0 });
+        assert_eq!(
+            Summary::of(&[3.0, 1.0, 2.0, 10.0]),
+            Summary {
+                median: 2.5,
+                min: 1.0,
+                max: 10.0,
+                mad: 1.0
+            }
+        );
+        assert_eq!(
+            Summary::of(&[7.0]),
+            Summary {
+                median: 7.0,
+                min: 7.0,
+                max: 7.0,
+                mad: 0.0
+            }
+        );
         assert!(!Summary::of(&[1.0, 1.5]).is_restless() && Summary::of(&[1.0, 1.51]).is_restless());
         // Control: the middle of unsorted samples, and a mean, are no median.
         assert_ne!(summary.median, [5.0, 1.0, 4.0, 2.0, 99.0][3]);
@@ -72,7 +105,10 @@ mod tests {
         let mut disturbed = quiet.clone();
         disturbed[14] = 50.0;
         let [quiet, disturbed] = [quiet, disturbed].map(|samples| Summary::of(&samples));
-        assert_eq!((quiet.median, quiet.mad, quiet.min), (disturbed.median, disturbed.mad, disturbed.min));
+        assert_eq!(
+            (quiet.median, quiet.mad, quiet.min),
+            (disturbed.median, disturbed.mad, disturbed.min)
+        );
         assert!(!quiet.is_restless() && disturbed.is_restless() && disturbed.max == 50.0);
     }
 }

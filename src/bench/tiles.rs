@@ -79,7 +79,12 @@ impl Frames {
     /// Time of pass 2 in compute passes that skip nothing, as a multiple of that of a way: the median over the repetitions.
     pub fn speedup(&self, of: &FrameSamples) -> Option<f64> {
         let none = self.samples.iter().find(|s| s.way == Way::Compute(Skip::None))?;
-        let ratios: Vec<f64> = none.weights.iter().zip(&of.weights).map(|(none, own)| none / own).collect();
+        let ratios: Vec<f64> = none
+            .weights
+            .iter()
+            .zip(&of.weights)
+            .map(|(none, own)| none / own)
+            .collect();
         Some(super::Summary::of(&ratios).median)
     }
 }
@@ -98,15 +103,36 @@ pub fn frames(
     progress: &dyn Fn(u64),
 ) -> Result<Frames, EvaluateError> {
     let background = [1.0; 3];
-    let drawing = if gpu.blends_f32() { Some(Drawing::new(gpu, list)?) } else { None };
-    let drawn = drawing.as_ref().map(|drawing| Pipeline::new(gpu, drawing, method, range, background, Storage::Full)).transpose()?;
+    let drawing = if gpu.blends_f32() {
+        Some(Drawing::new(gpu, list)?)
+    } else {
+        None
+    };
+    let drawn = drawing
+        .as_ref()
+        .map(|drawing| Pipeline::new(gpu, drawing, method, range, background, Storage::Full))
+        .transpose()?;
     let passes = TilePasses::new(gpu, list, method, range, background)?;
     let image = || {
         let (width, height) = list.size().expect("the passes have asked");
-        Image::new(width, height, passes.image(gpu)?.iter().map(|p| p.map(f64::from)).collect())
+        Image::new(
+            width,
+            height,
+            passes.image(gpu)?.iter().map(|p| p.map(f64::from)).collect(),
+        )
     };
-    let ways = drawn.iter().map(|_| Way::Drawn).chain(skips.iter().map(|&skip| Way::Compute(skip)));
-    let mut samples: Vec<FrameSamples> = ways.map(|way| FrameSamples { way, accumulate: Vec::new(), weights: Vec::new(), work: None }).collect();
+    let ways = drawn
+        .iter()
+        .map(|_| Way::Drawn)
+        .chain(skips.iter().map(|&skip| Way::Compute(skip)));
+    let mut samples: Vec<FrameSamples> = ways
+        .map(|way| FrameSamples {
+            way,
+            accumulate: Vec::new(),
+            weights: Vec::new(),
+            work: None,
+        })
+        .collect();
     passes.run(gpu, Skip::None)?;
     let reference = image()?;
     for repetition in 0..=repeat {
@@ -136,7 +162,12 @@ pub fn frames(
         }
         progress(repetition as u64);
     }
-    Ok(Frames { method: method.name.clone(), adapter: gpu.name(), fragments: list.len() as u64, samples })
+    Ok(Frames {
+        method: method.name.clone(),
+        adapter: gpu.name(),
+        fragments: list.len() as u64,
+        samples,
+    })
 }
 
 #[cfg(test)]
@@ -153,20 +184,50 @@ mod tests {
     fn every_way_is_measured() {
         let Some(gpu) = gpu() else { return };
         let mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
-        let list = scene::build(&scene::open("teapots").unwrap(), &scene::Options { size: Some((40, 30)), seed: None }).unwrap();
+        let list = scene::build(
+            &scene::open("teapots").unwrap(),
+            &scene::Options {
+                size: Some((40, 30)),
+                seed: None,
+            },
+        )
+        .unwrap();
         let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
         let range = method.depth_range(&list, None, None).unwrap();
-        let found = frames(gpu, &list, &method, range, &[Skip::None, Skip::Exact, Skip::Visible], 2, &|_| {}).unwrap();
+        let found = frames(
+            gpu,
+            &list,
+            &method,
+            range,
+            &[Skip::None, Skip::Exact, Skip::Visible],
+            2,
+            &|_| {},
+        )
+        .unwrap();
         assert_eq!(found.samples.len(), if gpu.blends_f32() { 4 } else { 3 });
         let work: Vec<Work> = found.samples.iter().filter_map(|s| s.work).collect();
-        assert_eq!((work.len(), work[0].asked, work[0].pixels), (3, list.len() as u64, None));
+        assert_eq!(
+            (work.len(), work[0].asked, work[0].pixels),
+            (3, list.len() as u64, None)
+        );
         assert_eq!((work[0].greatest_change, work[1].greatest_change), (0.0, 0.0));
-        assert!(work[1].asked < work[0].asked && work[2].asked <= work[1].asked && work[2].greatest_change <= 1.0 / 512.0, "{work:?}");
-        assert!(work[1..].iter().all(|w| w.pixels.is_some_and(|p| p.network + p.known == 40 * 30)));
+        assert!(
+            work[1].asked < work[0].asked && work[2].asked <= work[1].asked && work[2].greatest_change <= 1.0 / 512.0,
+            "{work:?}"
+        );
+        assert!(
+            work[1..]
+                .iter()
+                .all(|w| w.pixels.is_some_and(|p| p.network + p.known == 40 * 30))
+        );
         for way in &found.samples {
             assert_eq!((way.accumulate.len(), way.weights.len()), (2, 2));
             assert!(way.weights.iter().all(|s| *s > 0.0), "{way:?}");
-            assert!(found.speedup(way).is_some_and(|s| s > 0.0 && (s == 1.0) == (way.way == Way::Compute(Skip::None))));
+            assert!(
+                found
+                    .speedup(way)
+                    .is_some_and(|s| s > 0.0 && (s == 1.0) == (way.way == Way::Compute(Skip::None)))
+            );
         }
     }
 }

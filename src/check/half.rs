@@ -1,6 +1,6 @@
 //! The network with its hidden layers in f16, as exports compute it: what half precision costs, by our own arithmetic.
 
-use crate::features::{Answer, MOST_LOG_ABSORBANCE};
+use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
 use crate::numeric::Real;
 use crate::numeric::quantise::round_f16_of_f32 as half;
@@ -35,11 +35,14 @@ pub fn forward_batch(mlp: &Mlp, limit: f32, rows: &[f32]) -> Vec<f32> {
     let last = &mlp.layers()[mlp.layers().len() - 1];
     let answer = |row: &[f32]| {
         let x = hidden(mlp, limit, row, |_| {});
-        let logit = x.iter().zip(&last.weights).fold(last.biases[0], |sum, (x, w)| sum + w * x);
+        let logit = x
+            .iter()
+            .zip(&last.weights)
+            .fold(last.biases[0], |sum, (x, w)| sum + w * x);
         match mlp.feature_set().answer() {
             Answer::Sigmoid => logit.sigmoid(),
             Answer::Fraction { column, offset } => {
-                let absorbance = (Real::exp(row[column].min(MOST_LOG_ABSORBANCE)) - offset).max(0.0);
+                let absorbance = (Real::exp(row[column].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0);
                 Real::exp(-(absorbance * logit.sigmoid()).min(80.0))
             }
         }
@@ -64,7 +67,9 @@ mod tests {
             let mut rng = stream(seed, 96, 0);
             let mut overflows = 0;
             for _ in 0..2000 {
-                let row: Vec<f32> = (0..7).map(|_| libm::exp2f(rng.random_range(0.0..40.0)) * if rng.random() { 1.0 } else { -1.0 }).collect();
+                let row: Vec<f32> = (0..7)
+                    .map(|_| libm::exp2f(rng.random_range(0.0..40.0)) * if rng.random() { 1.0 } else { -1.0 })
+                    .collect();
                 hidden(&mlp, limit, &row, |y| assert!(y.is_finite()));
                 hidden(&mlp, 1e30, &row, |y| overflows += usize::from(!y.is_finite()));
             }
@@ -79,7 +84,11 @@ mod tests {
         let mut rng = stream(7, 96, 0);
         let rows: Vec<f32> = (0..7 * 500).map(|_| rng.random_range(-1.0..1.0)).collect();
         let exact = mlp.forward_batch::<f64>(&rows);
-        let worst = forward_batch(&mlp, 64.0, &rows).iter().zip(&exact).map(|(a, b)| (f64::from(*a) - b).abs()).fold(0.0, f64::max);
+        let worst = forward_batch(&mlp, 64.0, &rows)
+            .iter()
+            .zip(&exact)
+            .map(|(a, b)| (f64::from(*a) - b).abs())
+            .fold(0.0, f64::max);
         assert!((1e-5..2e-2).contains(&worst), "{worst}");
         // Control: features beyond the limit are seen as the limit.
         let far: Vec<f32> = rows.iter().map(|x| x * 100.0).collect();

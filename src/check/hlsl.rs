@@ -20,7 +20,11 @@ pub fn constants(text: &str) -> Result<Constants, String> {
     for declaration in text.split("static const ").skip(1) {
         let declaration = declaration.split(';').next().unwrap_or_default();
         let (head, value) = declaration.split_once('=').ok_or("a constant without a value")?;
-        let name = head.split_whitespace().nth(1).and_then(|n| n.split('[').next()).unwrap_or_default();
+        let name = head
+            .split_whitespace()
+            .nth(1)
+            .and_then(|n| n.split('[').next())
+            .unwrap_or_default();
         out.push((name.to_owned(), literals(value).map_err(|e| format!("{name}: {e}"))?));
     }
     Ok(out)
@@ -32,7 +36,13 @@ pub fn constants(text: &str) -> Result<Constants, String> {
 /// Names the line that has one that is not.
 pub fn literal_indices(text: &str) -> Result<(), String> {
     let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned();
-    let literal = |line: &str| line.split('[').skip(1).all(|rest| rest.split(']').next().is_some_and(|i| i.chars().all(|c| c.is_ascii_digit())));
+    let literal = |line: &str| {
+        line.split('[').skip(1).all(|rest| {
+            rest.split(']')
+                .next()
+                .is_some_and(|i| i.chars().all(|c| c.is_ascii_digit()))
+        })
+    };
     match text.lines().map(code).position(|line| !literal(&line)) {
         None => Ok(()),
         Some(at) => Err(format!("line {} has a run-time index", at + 1)),
@@ -74,12 +84,20 @@ pub fn glslang(shader: &str) -> Option<Result<(), String>> {
 /// # Errors
 /// In words, what to do about it.
 pub fn slangc() -> Result<PathBuf, String> {
-    match std::env::var_os(SLANGC_VARIABLE).filter(|v| !v.is_empty()).map(PathBuf::from) {
+    match std::env::var_os(SLANGC_VARIABLE)
+        .filter(|v| !v.is_empty())
+        .map(PathBuf::from)
+    {
         Some(path) if path.is_file() => Ok(path),
-        Some(path) => Err(format!("{SLANGC_VARIABLE} names {}, which is not a file", path.display())),
+        Some(path) => Err(format!(
+            "{SLANGC_VARIABLE} names {}, which is not a file",
+            path.display()
+        )),
         None => match Command::new("slangc").arg("-v").output() {
             Ok(_) => Ok(PathBuf::from("slangc")),
-            Err(_) => Err(format!("not found: set {SLANGC_VARIABLE} to slangc, for example the one inside PyPI's slangtorch wheel")),
+            Err(_) => Err(format!(
+                "not found: set {SLANGC_VARIABLE} to slangc, for example the one inside PyPI's slangtorch wheel"
+            )),
         },
     }
 }
@@ -92,8 +110,13 @@ pub fn to_wgsl(slangc: &std::path::Path, shader: &str, entry: &str) -> Result<St
     let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
     let (from, to) = (folder.path().join("export.hlsl"), folder.path().join("export.wgsl"));
     std::fs::write(&from, shader).map_err(|e| e.to_string())?;
-    let run =
-        Command::new(slangc).args(["-lang", "hlsl", "-target", "wgsl", "-entry", entry, "-stage", "compute", "-o"]).arg(&to).arg(&from).output();
+    let run = Command::new(slangc)
+        .args([
+            "-lang", "hlsl", "-target", "wgsl", "-entry", entry, "-stage", "compute", "-o",
+        ])
+        .arg(&to)
+        .arg(&from)
+        .output();
     super::shader::verdict("slangc", run)?;
     std::fs::read_to_string(&to).map_err(|e| format!("slangc wrote no WGSL: {e}"))
 }
@@ -124,7 +147,10 @@ mod tests {
         match slangc() {
             Ok(path) => Some(path),
             Err(why) => {
-                assert!(!required.split(',').any(|tool| tool.trim() == "slangc"), "slangc is required: {why}");
+                assert!(
+                    !required.split(',').any(|tool| tool.trim() == "slangc"),
+                    "slangc is required: {why}"
+                );
                 println!("skipped: slangc {why}");
                 None
             }
@@ -138,14 +164,26 @@ mod tests {
             for format in FORMATS {
                 let text = source(&mlp, format);
                 let kind = format.kind().unwrap();
-                weights(kind, &constants(&text).unwrap(), &mlp).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
+                weights(kind, &constants(&text).unwrap(), &mlp)
+                    .unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
                 literal_indices(&text).unwrap();
                 let last = mlp.layers().last().unwrap().weights[0];
-                let changed = text.replacen(&format!("{last:?}f"), &format!("{:?}f", f32::from_bits(last.to_bits() ^ 1)), 1);
-                assert!(weights(kind, &constants(&changed).unwrap(), &mlp).unwrap_err().contains("the network has"));
+                let changed = text.replacen(
+                    &format!("{last:?}f"),
+                    &format!("{:?}f", f32::from_bits(last.to_bits() ^ 1)),
+                    1,
+                );
+                assert!(
+                    weights(kind, &constants(&changed).unwrap(), &mlp)
+                        .unwrap_err()
+                        .contains("the network has")
+                );
             }
         }
-        assert_eq!(literal_indices("float a[7];\nx = a[3]; // a[i]\ny = a[i];").unwrap_err(), "line 3 has a run-time index");
+        assert_eq!(
+            literal_indices("float a[7];\nx = a[3]; // a[i]\ny = a[i];").unwrap_err(),
+            "line 3 has a run-time index"
+        );
         assert!(constants("static const float NMT_W1[1] = { 1.0.0 };").is_err());
     }
 
@@ -156,9 +194,15 @@ mod tests {
             let mlp = random_mlp(hidden, 2);
             for format in FORMATS {
                 let whole = with_rows(&source(&mlp, format), 7);
-                let Some(result) = glslang(&whole) else { return println!("skipped: glslangValidator is not here") };
+                let Some(result) = glslang(&whole) else {
+                    return println!("skipped: glslangValidator is not here");
+                };
                 result.unwrap();
-                assert!(glslang(&whole.replace("nmt_transmittance(f)", "nmt_transmittance(g)")).unwrap().is_err());
+                assert!(
+                    glslang(&whole.replace("nmt_transmittance(f)", "nmt_transmittance(g)"))
+                        .unwrap()
+                        .is_err()
+                );
             }
         }
     }
@@ -177,14 +221,19 @@ mod tests {
                 let wgsl = to_wgsl(&slangc, &with_rows(&source(&mlp, format), 7), ROWS).unwrap();
                 let (module, _) = translate::parse_wgsl(&wgsl).unwrap();
                 let interpreter = Interpreter::new(&module);
-                let out = interpreter.call_rows(interpreter.function_like(ENTRY).unwrap(), &rows, 7).unwrap();
+                let out = interpreter
+                    .call_rows(interpreter.function_like(ENTRY).unwrap(), &rows, 7)
+                    .unwrap();
                 let (reference, bar) = match format {
                     Format::HlslPlain => (&single, 0.0),
                     Format::Hlsl => (&single, 2e-6),
                     Format::HlslPlainF16 => (&halves, 0.0),
                     _ => (&halves, 2e-2),
                 };
-                assert!(out.iter().zip(reference).all(|(a, b)| (a - b).abs() <= bar), "{format:?} {hidden:?}");
+                assert!(
+                    out.iter().zip(reference).all(|(a, b)| (a - b).abs() <= bar),
+                    "{format:?} {hidden:?}"
+                );
             }
         }
         assert!(to_wgsl(&slangc, "void main() { nonsense }", "main").is_err());
@@ -198,11 +247,18 @@ mod tests {
             let (k, width) = (set.moments(), set.width());
             let mut rng = stream(4, 2, k as u64);
             let mut numbers = |n: usize| (0..n).map(|_| rng.random_range(-0.7f32..0.7)).collect::<Vec<_>>();
-            let layers = vec![Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(), Dense::new(6, 1, numbers(6), numbers(1)).unwrap()];
+            let layers = vec![
+                Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(),
+                Dense::new(6, 1, numbers(6), numbers(1)).unwrap(),
+            ];
             let mlp = Mlp::new("m", set, layers, Provenance::default()).unwrap();
             // Name, scalar arguments, whether moments follow (an array, or a vector for the paper's), and numbers written to an array behind them.
             let functions: Vec<(&str, usize, bool, usize)> = match set {
-                FeatureSet::Paper => vec![("nmt_absorbance", 1, false, 0), ("nmt_moments", 2, false, 0), ("nmt_features", 5, true, 7)],
+                FeatureSet::Paper => vec![
+                    ("nmt_absorbance", 1, false, 0),
+                    ("nmt_moments", 2, false, 0),
+                    ("nmt_features", 5, true, 7),
+                ],
                 FeatureSet::DeepWeightedBlended => vec![("nmt_features", 5, false, 3)],
                 _ => vec![
                     ("nmt_absorbance", 1, false, 0),
@@ -220,13 +276,19 @@ mod tests {
                 if moments && vector {
                     call.push("float4(nmt_in[9], nmt_in[10], nmt_in[11], nmt_in[12])".to_owned());
                 } else if moments {
-                    body += &format!("    float b{i}[{k}];\n    for (uint k{i} = 0; k{i} < {k}; k{i}++) {{ b{i}[k{i}] = nmt_in[9 + k{i}]; }}\n");
+                    body += &format!(
+                        "    float b{i}[{k}];\n    for (uint k{i} = 0; k{i} < {k}; k{i}++) {{ b{i}[k{i}] = nmt_in[9 + k{i}]; }}\n"
+                    );
                     call.push(format!("b{i}"));
                 }
                 if out > 0 {
                     call.push(format!("r{i}"));
                     let sum: Vec<String> = (0..out).map(|o| format!("r{i}[{o}]")).collect();
-                    body += &format!("    float r{i}[{out}];\n    {name}({});\n    nmt_out[{i}] = {};\n", call.join(", "), sum.join(" + "));
+                    body += &format!(
+                        "    float r{i}[{out}];\n    {name}({});\n    nmt_out[{i}] = {};\n",
+                        call.join(", "),
+                        sum.join(" + ")
+                    );
                 } else {
                     let part = if name == "nmt_moments" { ".x" } else { "" };
                     body += &format!("    nmt_out[{i}] = {name}({}){part};\n", call.join(", "));
@@ -234,7 +296,9 @@ mod tests {
             }
             let head = "StructuredBuffer<float> nmt_in;\nRWStructuredBuffer<float> nmt_out;\n[numthreads(1, 1, 1)]\nvoid probe() {\n";
             let whole = format!("{}{head}{body}}}\n", source(&mlp, Format::Hlsl));
-            if let Some(result) = shader::glslang_hlsl(&whole, "probe", &tempfile::tempdir().unwrap().path().join("x.spv")) {
+            if let Some(result) =
+                shader::glslang_hlsl(&whole, "probe", &tempfile::tempdir().unwrap().path().join("x.spv"))
+            {
                 result.unwrap();
             }
             let wgsl = to_wgsl(&slangc, &whole, "probe").unwrap_or_else(|e| panic!("{e}\n{whole}"));
@@ -249,8 +313,21 @@ mod tests {
                 let (near, far) = (next(-0.9, 0.0), next(0.0, 0.9));
                 let z = [near, far, next(near, far)][round % 3];
                 // Those of nmt_recentred; as good as any for the others.
-                let mut scalars = [z.exp(), z, next(0.0, 2.0), near.exp(), far.exp(), near, far, n, next(2.0, 6.0)];
-                if !matches!(set, FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8) {
+                let mut scalars = [
+                    z.exp(),
+                    z,
+                    next(0.0, 2.0),
+                    near.exp(),
+                    far.exp(),
+                    near,
+                    far,
+                    n,
+                    next(2.0, 6.0),
+                ];
+                if !matches!(
+                    set,
+                    FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
+                ) {
                     scalars = std::array::from_fn(|_| next(0.0, 1.0));
                 }
                 let b: Vec<f32> = (0..k).map(|_| next(-1.0, 1.0)).collect();
@@ -266,9 +343,16 @@ mod tests {
                     } else {
                         hlsl.call(function, arguments)
                     };
-                    let found = found.unwrap_or_else(|e| panic!("{set:?} {name}: {e}\n{wgsl}")).flatten().unwrap();
+                    let found = found
+                        .unwrap_or_else(|e| panic!("{set:?} {name}: {e}\n{wgsl}"))
+                        .flatten()
+                        .unwrap();
                     let bits = |x: &[f32]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-                    assert_eq!(bits(&found), bits(&expected), "{set:?} {name} of {scalars:?}, {b:?}: {found:?} for {expected:?}");
+                    assert_eq!(
+                        bits(&found),
+                        bits(&expected),
+                        "{set:?} {name} of {scalars:?}, {b:?}: {found:?} for {expected:?}"
+                    );
                     if name == "nmt_recentred" {
                         kinds[usize::from(expected[width] < 0.0)] += 1;
                     }

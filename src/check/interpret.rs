@@ -5,7 +5,9 @@
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::front::Typifier;
 use naga::proc::ResolveContext;
-use naga::{BinaryOperator, Expression, Function, Handle, Literal, MathFunction, Module, Statement, TypeInner, UnaryOperator};
+use naga::{
+    BinaryOperator, Expression, Function, Handle, Literal, MathFunction, Module, Statement, TypeInner, UnaryOperator,
+};
 use std::sync::Arc;
 
 /// A value in every lane.
@@ -50,7 +52,10 @@ type Result<T> = std::result::Result<T, InterpretError>;
 
 fn unsupported<T>(what: impl std::fmt::Debug) -> Result<T> {
     // The variant's name is enough; handles and nested data help nobody.
-    let name: String = format!("{what:?}").chars().take_while(|c| c.is_alphanumeric() || *c == ':').collect();
+    let name: String = format!("{what:?}")
+        .chars()
+        .take_while(|c| c.is_alphanumeric() || *c == ':')
+        .collect();
     Err(InterpretError::Unsupported(name))
 }
 
@@ -90,7 +95,11 @@ impl<const L: usize> Value<L> {
         match self {
             Self::Uniform(x) => Ok(vec![*x]),
             Self::Lanes(x) if L == 1 => Ok(x.to_vec()),
-            Self::Composite(items) => items.iter().map(Self::flatten).collect::<Result<Vec<_>>>().map(|v| v.concat()),
+            Self::Composite(items) => items
+                .iter()
+                .map(Self::flatten)
+                .collect::<Result<Vec<_>>>()
+                .map(|v| v.concat()),
             _ => Err(InterpretError::Operands("a constant")),
         }
     }
@@ -124,11 +133,18 @@ impl<const L: usize> Value<L> {
     /// Component by component; a scalar goes with every component.
     fn zip(&self, other: &Self, f: &impl Fn(f32, f32) -> f32) -> Result<Self> {
         Ok(match (self, other) {
-            (Self::Composite(a), Self::Composite(b)) if a.len() == b.len() => {
-                Self::Composite(a.iter().zip(b.iter()).map(|(a, b)| a.zip(b, f)).collect::<Result<_>>()?)
+            (Self::Composite(a), Self::Composite(b)) if a.len() == b.len() => Self::Composite(
+                a.iter()
+                    .zip(b.iter())
+                    .map(|(a, b)| a.zip(b, f))
+                    .collect::<Result<_>>()?,
+            ),
+            (Self::Composite(a), b @ (Self::Uniform(_) | Self::Lanes(_))) => {
+                Self::Composite(a.iter().map(|a| a.zip(b, f)).collect::<Result<_>>()?)
             }
-            (Self::Composite(a), b @ (Self::Uniform(_) | Self::Lanes(_))) => Self::Composite(a.iter().map(|a| a.zip(b, f)).collect::<Result<_>>()?),
-            (a @ (Self::Uniform(_) | Self::Lanes(_)), Self::Composite(b)) => Self::Composite(b.iter().map(|b| a.zip(b, f)).collect::<Result<_>>()?),
+            (a @ (Self::Uniform(_) | Self::Lanes(_)), Self::Composite(b)) => {
+                Self::Composite(b.iter().map(|b| a.zip(b, f)).collect::<Result<_>>()?)
+            }
             (Self::Uniform(a), Self::Uniform(b)) => Self::Uniform(f(*a, *b)),
             (Self::Uniform(a), Self::Lanes(b)) => Self::each(|l| f(*a, b[l])),
             (Self::Lanes(a), Self::Uniform(b)) => Self::each(|l| f(a[l], *b)),
@@ -183,10 +199,16 @@ impl<const L: usize> Value<L> {
     }
 
     fn select(condition: &Self, accept: &Self, reject: &Self) -> Result<Self> {
-        let Self::Bools(c) = condition else { return Err(InterpretError::Operands("select")) };
+        let Self::Bools(c) = condition else {
+            return Err(InterpretError::Operands("select"));
+        };
         let mut out = [0.0; L];
         for (lane, out) in out.iter_mut().enumerate() {
-            *out = if c[lane] { accept.lane(lane)? } else { reject.lane(lane)? };
+            *out = if c[lane] {
+                accept.lane(lane)?
+            } else {
+                reject.lane(lane)?
+            };
         }
         Ok(Self::Lanes(Arc::new(out)))
     }
@@ -215,14 +237,29 @@ fn halves(module: &Module, function: &Function) -> Vec<bool> {
 impl<'a> Interpreter<'a> {
     /// An interpreter of a validated module.
     pub fn new(module: &'a Module) -> Self {
-        let constants = module.constants.iter().map(|(_, constant)| global(module, constant.init)).collect();
-        let halves = module.functions.iter().map(|(_, function)| halves(module, function)).collect();
-        Self { module, constants, halves }
+        let constants = module
+            .constants
+            .iter()
+            .map(|(_, constant)| global(module, constant.init))
+            .collect();
+        let halves = module
+            .functions
+            .iter()
+            .map(|(_, function)| halves(module, function))
+            .collect();
+        Self {
+            module,
+            constants,
+            halves,
+        }
     }
 
     /// A constant that a function names, as it is in every lane.
     fn constant_value<const L: usize>(&self, handle: Handle<naga::Constant>) -> Result<Value<L>> {
-        self.constants[handle.index()].as_ref().map_err(Clone::clone)?.in_lanes()
+        self.constants[handle.index()]
+            .as_ref()
+            .map_err(Clone::clone)?
+            .in_lanes()
     }
 
     /// All numbers of a module constant, in order.
@@ -230,7 +267,11 @@ impl<'a> Interpreter<'a> {
     /// # Errors
     /// [`InterpretError::NoConstant`] where there is none of this name.
     pub fn constant(&self, name: &str) -> Result<Vec<f32>> {
-        let found = self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name));
+        let found = self
+            .module
+            .constants
+            .iter()
+            .find(|(_, c)| c.name.as_deref() == Some(name));
         let (handle, _) = found.ok_or_else(|| InterpretError::NoConstant(name.to_owned()))?;
         self.constants[handle.index()].as_ref().map_err(Clone::clone)?.flatten()
     }
@@ -250,7 +291,9 @@ impl<'a> Interpreter<'a> {
             (rest.is_empty() || rest.strip_prefix('_')?.chars().all(|c| c.is_ascii_digit())).then_some(())
         };
         let mut names = self.module.functions.iter().filter_map(|(_, f)| f.name.as_deref());
-        names.find(|whole| like(whole).is_some()).ok_or_else(|| InterpretError::NoFunction(name.to_owned()))
+        names
+            .find(|whole| like(whole).is_some())
+            .ok_or_else(|| InterpretError::NoFunction(name.to_owned()))
     }
 
     /// Calls a function on a row of arguments a lane.
@@ -258,7 +301,11 @@ impl<'a> Interpreter<'a> {
     /// # Errors
     /// [`InterpretError`].
     pub fn call<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>) -> Result<Value<L>> {
-        let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
+        let found = self
+            .module
+            .functions
+            .iter()
+            .find(|(_, f)| f.name.as_deref() == Some(name));
         let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
         self.run(function, arguments)?.0.ok_or(InterpretError::NoValue)
     }
@@ -268,9 +315,17 @@ impl<'a> Interpreter<'a> {
     /// # Errors
     /// [`InterpretError`].
     pub fn call_out<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>, at: usize) -> Result<Value<L>> {
-        let found = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name));
+        let found = self
+            .module
+            .functions
+            .iter()
+            .find(|(_, f)| f.name.as_deref() == Some(name));
         let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
-        self.run(function, arguments)?.1.into_iter().nth(at).ok_or(InterpretError::Operands("a call"))
+        self.run(function, arguments)?
+            .1
+            .into_iter()
+            .nth(at)
+            .ok_or(InterpretError::Operands("a call"))
     }
 
     /// Calls a function of one array argument on rows of numbers; the result is a number a row.
@@ -283,7 +338,10 @@ impl<'a> Interpreter<'a> {
     pub fn call_rows(&self, name: &str, rows: &[f32], width: usize) -> Result<Vec<f32>> {
         use rayon::prelude::*;
         const L: usize = 64;
-        let blocks: Vec<Vec<f32>> = rows.par_chunks(L * width).map(|block| self.call_block::<L>(name, block, width)).collect::<Result<_>>()?;
+        let blocks: Vec<Vec<f32>> = rows
+            .par_chunks(L * width)
+            .map(|block| self.call_block::<L>(name, block, width))
+            .collect::<Result<_>>()?;
         Ok(blocks.concat())
     }
 
@@ -293,15 +351,20 @@ impl<'a> Interpreter<'a> {
         let lanes = |i: usize| Value::each(|lane| rows[lane.min(n - 1) * width + i]);
         match self.call::<L>(name, vec![Value::Composite((0..width).map(lanes).collect())]) {
             Ok(value) => (0..n).map(|lane| value.lane(lane)).collect(),
-            Err(InterpretError::Divergent) if L > 1 => {
-                rows.chunks_exact(width).map(|row| self.call::<1>(name, vec![Value::numbers(row)])?.lane(0)).collect()
-            }
+            Err(InterpretError::Divergent) if L > 1 => rows
+                .chunks_exact(width)
+                .map(|row| self.call::<1>(name, vec![Value::numbers(row)])?.lane(0))
+                .collect(),
             Err(error) => Err(error),
         }
     }
 
     /// Runs a function; the result is its value, and what its pointer arguments point to in the end, at their places among the arguments.
-    fn run<const L: usize>(&self, handle: Handle<Function>, arguments: Vec<Value<L>>) -> Result<(Option<Value<L>>, Vec<Value<L>>)> {
+    fn run<const L: usize>(
+        &self,
+        handle: Handle<Function>,
+        arguments: Vec<Value<L>>,
+    ) -> Result<(Option<Value<L>>, Vec<Value<L>>)> {
         let function = &self.module.functions[handle];
         if arguments.len() != function.arguments.len() {
             return Err(InterpretError::Operands("a call"));
@@ -309,7 +372,14 @@ impl<'a> Interpreter<'a> {
         let halves = &self.halves[handle.index()];
         let mut locals = Vec::new();
         for (_, local) in function.local_variables.iter() {
-            let mut frame = Frame { interpreter: self, function, halves, arguments: &[], locals: Vec::new(), values: Vec::new() };
+            let mut frame = Frame {
+                interpreter: self,
+                function,
+                halves,
+                arguments: &[],
+                locals: Vec::new(),
+                values: Vec::new(),
+            };
             locals.push(match local.init {
                 Some(init) => frame.value(init)?,
                 None => zero(self.module, local.ty)?,
@@ -317,7 +387,14 @@ impl<'a> Interpreter<'a> {
         }
         // What a pointer points to is a variable of the call, copied in and out.
         locals.extend(arguments.iter().cloned());
-        let mut frame = Frame { interpreter: self, function, halves, arguments: &arguments, locals, values: vec![None; function.expressions.len()] };
+        let mut frame = Frame {
+            interpreter: self,
+            function,
+            halves,
+            arguments: &arguments,
+            locals,
+            values: vec![None; function.expressions.len()],
+        };
         let value = match frame.block(&function.body)? {
             Flow::Return(value) => value,
             Flow::Next => None,
@@ -331,10 +408,17 @@ fn global(module: &Module, handle: Handle<Expression>) -> Result<Value<1>> {
     match &module.global_expressions[handle] {
         Expression::Literal(literal) => literal_value(*literal),
         Expression::Constant(constant) => global(module, module.constants[*constant].init),
-        Expression::Compose { components, .. } => components.iter().map(|&c| global(module, c)).collect::<Result<_>>().map(Value::Composite),
+        Expression::Compose { components, .. } => components
+            .iter()
+            .map(|&c| global(module, c))
+            .collect::<Result<_>>()
+            .map(Value::Composite),
         Expression::Splat { size, value } => Ok(splat(global(module, *value)?, *size as usize)),
         Expression::ZeroValue(ty) => zero(module, *ty),
-        Expression::Unary { op: UnaryOperator::Negate, expr } => global(module, *expr)?.map(&|x| -x),
+        Expression::Unary {
+            op: UnaryOperator::Negate,
+            expr,
+        } => global(module, *expr)?.map(&|x| -x),
         other => unsupported(other),
     }
 }
@@ -342,10 +426,19 @@ fn global(module: &Module, handle: Handle<Expression>) -> Result<Value<1>> {
 fn zero<const L: usize>(module: &Module, ty: Handle<naga::Type>) -> Result<Value<L>> {
     let copies = |n: usize, item: Value<L>| Value::Composite((0..n).map(|_| item.clone()).collect());
     match module.types[ty].inner {
-        TypeInner::Scalar(naga::Scalar { kind: naga::ScalarKind::Float, .. }) => Ok(Value::Uniform(0.0)),
+        TypeInner::Scalar(naga::Scalar {
+            kind: naga::ScalarKind::Float,
+            ..
+        }) => Ok(Value::Uniform(0.0)),
         TypeInner::Vector { size, .. } => Ok(copies(size as usize, Value::Uniform(0.0))),
-        TypeInner::Matrix { columns, rows, .. } => Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0)))),
-        TypeInner::Array { base, size: naga::ArraySize::Constant(n), .. } => Ok(copies(n.get() as usize, zero(module, base)?)),
+        TypeInner::Matrix { columns, rows, .. } => {
+            Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0))))
+        }
+        TypeInner::Array {
+            base,
+            size: naga::ArraySize::Constant(n),
+            ..
+        } => Ok(copies(n.get() as usize, zero(module, base)?)),
         ref other => unsupported(other),
     }
 }
@@ -355,7 +448,9 @@ fn literal_value<const L: usize>(literal: Literal) -> Result<Value<L>> {
         Literal::F32(x) => Ok(Value::Uniform(x)),
         Literal::F16(x) => Ok(Value::Uniform(x.to_f32())),
         Literal::U32(x) => Ok(Value::Index(x)),
-        Literal::I32(x) => u32::try_from(x).map(Value::Index).map_err(|_| InterpretError::Operands("an index")),
+        Literal::I32(x) => u32::try_from(x)
+            .map(Value::Index)
+            .map_err(|_| InterpretError::Operands("an index")),
         Literal::Bool(x) => Ok(Value::Bools(Arc::new([x; L]))),
         other => unsupported(other),
     }
@@ -399,8 +494,14 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                         return Ok(flow);
                     }
                 }
-                Statement::If { condition, accept, reject } => {
-                    let Value::Bools(c) = self.value(*condition)? else { return Err(InterpretError::Operands("if")) };
+                Statement::If {
+                    condition,
+                    accept,
+                    reject,
+                } => {
+                    let Value::Bools(c) = self.value(*condition)? else {
+                        return Err(InterpretError::Operands("if"));
+                    };
                     if c.iter().any(|&b| b != c[0]) {
                         return Err(InterpretError::Divergent);
                     }
@@ -414,7 +515,11 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     let (local, path) = self.place(*pointer).ok_or(InterpretError::Operands("a store"))?;
                     store(&mut self.locals[local], &path, value)?;
                 }
-                Statement::Call { function, arguments, result } => {
+                Statement::Call {
+                    function,
+                    arguments,
+                    result,
+                } => {
                     let places: Vec<_> = arguments.iter().map(|&a| self.place(a)).collect();
                     let values = arguments.iter().zip(&places).map(|(&a, place)| match place {
                         Some(place) => self.load(place),
@@ -460,15 +565,22 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
     }
 
     fn load(&self, (local, path): &(usize, Vec<usize>)) -> Result<Value<L>> {
-        path.iter().try_fold(self.locals[*local].clone(), |value, &index| value.item(index))
+        path.iter()
+            .try_fold(self.locals[*local].clone(), |value, &index| value.item(index))
     }
 
     /// An index that is the same in every lane.
     fn index(&self, handle: Handle<Expression>) -> Result<usize> {
         match &self.function.expressions[handle] {
             Expression::Literal(Literal::U32(i)) => Ok(*i as usize),
-            Expression::Literal(Literal::I32(i)) => usize::try_from(*i).map_err(|_| InterpretError::Operands("an index")),
-            Expression::As { expr, kind: naga::ScalarKind::Sint | naga::ScalarKind::Uint, .. } => self.index(*expr),
+            Expression::Literal(Literal::I32(i)) => {
+                usize::try_from(*i).map_err(|_| InterpretError::Operands("an index"))
+            }
+            Expression::As {
+                expr,
+                kind: naga::ScalarKind::Sint | naga::ScalarKind::Uint,
+                ..
+            } => self.index(*expr),
             other => unsupported(other),
         }
     }
@@ -501,7 +613,11 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
     /// A part of a composite. Of a constant or a list only that part is brought into the lanes: front ends repeat a whole constant array at each use.
     fn item(&mut self, base: Handle<Expression>, index: usize) -> Result<Value<L>> {
         match &self.function.expressions[base] {
-            Expression::Constant(constant) => self.interpreter.constants[constant.index()].as_ref().map_err(Clone::clone)?.item(index)?.in_lanes(),
+            Expression::Constant(constant) => self.interpreter.constants[constant.index()]
+                .as_ref()
+                .map_err(Clone::clone)?
+                .item(index)?
+                .in_lanes(),
             _ => match self.list(base) {
                 Some(items) => self.value(*items.get(index).ok_or(InterpretError::Operands("an index"))?),
                 None => self.value(base)?.item(index),
@@ -526,9 +642,17 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             Expression::Literal(literal) => literal_value(*literal),
             Expression::Constant(constant) => self.interpreter.constant_value(*constant),
             Expression::ZeroValue(ty) => zero(self.interpreter.module, *ty),
-            Expression::Compose { components, .. } => components.iter().map(|&c| self.value(c)).collect::<Result<_>>().map(Value::Composite),
+            Expression::Compose { components, .. } => components
+                .iter()
+                .map(|&c| self.value(c))
+                .collect::<Result<_>>()
+                .map(Value::Composite),
             Expression::Splat { size, value } => Ok(splat(self.value(*value)?, *size as usize)),
-            Expression::FunctionArgument(index) => self.arguments.get(*index as usize).cloned().ok_or(InterpretError::Operands("a call")),
+            Expression::FunctionArgument(index) => self
+                .arguments
+                .get(*index as usize)
+                .cloned()
+                .ok_or(InterpretError::Operands("a call")),
             Expression::AccessIndex { base, index } => self.item(*base, *index as usize),
             Expression::Access { base, index } => self.item(*base, self.index(*index)?),
             Expression::Load { pointer } => {
@@ -537,9 +661,15 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             }
             Expression::Swizzle { size, vector, pattern } => {
                 let vector = self.value(*vector)?;
-                (0..*size as usize).map(|i| vector.item(pattern[i] as usize)).collect::<Result<_>>().map(Value::Composite)
+                (0..*size as usize)
+                    .map(|i| vector.item(pattern[i] as usize))
+                    .collect::<Result<_>>()
+                    .map(Value::Composite)
             }
-            Expression::Unary { op: UnaryOperator::Negate, expr } => self.value(*expr)?.map(&|x| -x),
+            Expression::Unary {
+                op: UnaryOperator::Negate,
+                expr,
+            } => self.value(*expr)?.map(&|x| -x),
             Expression::Binary { op, left, right } => {
                 let (a, b) = (self.value(*left)?, self.value(*right)?);
                 match op {
@@ -556,9 +686,19 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     other => unsupported(other),
                 }
             }
-            Expression::As { expr, kind: naga::ScalarKind::Float, convert: Some(2 | 4) } => self.value(*expr),
-            Expression::Select { condition, accept, reject } => Value::select(&self.value(*condition)?, &self.value(*accept)?, &self.value(*reject)?),
-            Expression::Math { fun, arg, arg1, arg2, .. } => {
+            Expression::As {
+                expr,
+                kind: naga::ScalarKind::Float,
+                convert: Some(2 | 4),
+            } => self.value(*expr),
+            Expression::Select {
+                condition,
+                accept,
+                reject,
+            } => Value::select(&self.value(*condition)?, &self.value(*accept)?, &self.value(*reject)?),
+            Expression::Math {
+                fun, arg, arg1, arg2, ..
+            } => {
                 let a = self.value(*arg)?;
                 let b = arg1.map(|b| self.value(b)).transpose()?;
                 let c = arg2.map(|c| self.value(c)).transpose()?;
@@ -588,7 +728,11 @@ fn store<const L: usize>(target: &mut Value<L>, path: &[usize], value: Value<L>)
         Some((&index, rest)) => match target {
             Value::Composite(items) => {
                 let mut changed = items.to_vec();
-                store(changed.get_mut(index).ok_or(InterpretError::Operands("an index"))?, rest, value)?;
+                store(
+                    changed.get_mut(index).ok_or(InterpretError::Operands("an index"))?,
+                    rest,
+                    value,
+                )?;
                 *target = Value::Composite(changed.into());
                 Ok(())
             }
@@ -607,23 +751,42 @@ mod tests {
 
     fn call(source: &str, arguments: &[f32]) -> Result<f32> {
         let module = module(source);
-        Interpreter::new(&module).call::<1>("f", arguments.iter().map(|&a| Value::Uniform(a)).collect())?.lane(0)
+        Interpreter::new(&module)
+            .call::<1>("f", arguments.iter().map(|&a| Value::Uniform(a)).collect())?
+            .lane(0)
     }
 
     #[test]
     fn arithmetic_vectors_and_matrices() {
-        assert_eq!(call("fn f(x: f32) -> f32 { return -x * 2.0 + max(x, 1.0) / 4.0; }", &[3.0]), Ok(-5.25));
-        assert_eq!(call("fn f(x: f32) -> f32 { return dot(vec3<f32>(x, 2.0, 3.0), vec3<f32>(1.0, x, 2.0)); }", &[4.0]), Ok(18.0));
+        assert_eq!(
+            call("fn f(x: f32) -> f32 { return -x * 2.0 + max(x, 1.0) / 4.0; }", &[3.0]),
+            Ok(-5.25)
+        );
+        assert_eq!(
+            call(
+                "fn f(x: f32) -> f32 { return dot(vec3<f32>(x, 2.0, 3.0), vec3<f32>(1.0, x, 2.0)); }",
+                &[4.0]
+            ),
+            Ok(18.0)
+        );
         let matrix = "fn f(x: f32) -> f32 { let m = mat2x2<f32>(vec2<f32>(1.0, 2.0), vec2<f32>(3.0, x)); return (m * vec2<f32>(10.0, 1.0)).y; }";
         assert_eq!(call(matrix, &[4.0]), Ok(24.0));
-        assert_eq!(call("fn f(x: f32) -> f32 { var v = vec4<f32>(x); v.y = 7.0; return v.zyx.y; }", &[4.0]), Ok(7.0));
-        assert_eq!(call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]), Ok(std::f32::consts::E));
+        assert_eq!(
+            call(
+                "fn f(x: f32) -> f32 { var v = vec4<f32>(x); v.y = 7.0; return v.zyx.y; }",
+                &[4.0]
+            ),
+            Ok(7.0)
+        );
+        assert_eq!(
+            call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]),
+            Ok(std::f32::consts::E)
+        );
     }
 
     #[test]
     fn branches_calls_and_selects() {
-        let source =
-            "fn g(x: f32) -> f32 { if x > 1.0 { return 10.0; } return select(1.0, 2.0, x > 0.0); } fn f(x: f32) -> f32 { return g(x) + 0.5; }";
+        let source = "fn g(x: f32) -> f32 { if x > 1.0 { return 10.0; } return select(1.0, 2.0, x > 0.0); } fn f(x: f32) -> f32 { return g(x) + 0.5; }";
         assert_eq!(call(source, &[2.0]), Ok(10.5));
         assert_eq!(call(source, &[0.5]), Ok(2.5));
         assert_eq!(call(source, &[-1.0]), Ok(1.5));
@@ -636,8 +799,17 @@ mod tests {
         // The spacing of halves is 2 from 2048 on, 1 below.
         assert_eq!(half("return f32(f16(x));", 2049.0), Ok(2048.0));
         assert_eq!(half("return f32(f16(x) + 1.0h) + 1.0;", 2048.0), Ok(2049.0));
-        assert_eq!(half("return f32(dot(vec3<f16>(f16(x), 1.0h, 1.0h), vec3<f16>(1.0h)));", 2048.0), Ok(2048.0));
-        assert_eq!(half("return dot(vec3<f32>(x, 1.0, 1.0), vec3<f32>(1.0));", 2048.0), Ok(2050.0));
+        assert_eq!(
+            half(
+                "return f32(dot(vec3<f16>(f16(x), 1.0h, 1.0h), vec3<f16>(1.0h)));",
+                2048.0
+            ),
+            Ok(2048.0)
+        );
+        assert_eq!(
+            half("return dot(vec3<f32>(x, 1.0, 1.0), vec3<f32>(1.0));", 2048.0),
+            Ok(2050.0)
+        );
         let product = "let m = mat2x2<f16>(vec2<f16>(1.0h, 2.0h), vec2<f16>(1.0h, 1.0h)); return f32((m * vec2<f16>(f16(x), 1.0h)).x);";
         assert_eq!(half(product, 2048.0), Ok(2048.0));
         assert_eq!(half("return f32(max(f16(x) * 0.1h, 0.0h));", 1.0), Ok(0.099975586));
@@ -659,14 +831,26 @@ mod tests {
     fn divergent_rows() {
         let module = module("fn f(x: array<f32, 2>) -> f32 { if x[0] > 0.0 { return x[1]; } return -1.0; }");
         let rows = [1.0, 5.0, -1.0, 6.0, 2.0, 7.0];
-        assert_eq!(Interpreter::new(&module).call_rows("f", &rows, 2), Ok(vec![5.0, -1.0, 7.0]));
+        assert_eq!(
+            Interpreter::new(&module).call_rows("f", &rows, 2),
+            Ok(vec![5.0, -1.0, 7.0])
+        );
     }
 
     #[test]
     fn what_is_not_supported_is_named() {
-        assert_eq!(call("fn f(x: f32) -> f32 { return sin(x); }", &[1.0]), Err(InterpretError::Unsupported("Sin".to_owned())));
+        assert_eq!(
+            call("fn f(x: f32) -> f32 { return sin(x); }", &[1.0]),
+            Err(InterpretError::Unsupported("Sin".to_owned()))
+        );
         let run_time_index = "const W = array<f32, 2>(1.0, 2.0); fn f(x: f32) -> f32 { return W[u32(x)]; }";
-        assert!(matches!(call(run_time_index, &[1.0]), Err(InterpretError::Unsupported(_))));
-        assert!(matches!(Interpreter::new(&module("")).call::<1>("f", vec![]), Err(InterpretError::NoFunction(_))));
+        assert!(matches!(
+            call(run_time_index, &[1.0]),
+            Err(InterpretError::Unsupported(_))
+        ));
+        assert!(matches!(
+            Interpreter::new(&module("")).call::<1>("f", vec![]),
+            Err(InterpretError::NoFunction(_))
+        ));
     }
 }

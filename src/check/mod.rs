@@ -52,7 +52,11 @@ pub struct CheckOptions {
 
 impl Default for CheckOptions {
     fn default() -> Self {
-        Self { rows: 100_000, extreme_rows: 20_000, gpu_rows: 1_000_000 }
+        Self {
+            rows: 100_000,
+            extreme_rows: 20_000,
+            gpu_rows: 1_000_000,
+        }
     }
 }
 
@@ -105,16 +109,33 @@ impl Finding {
             Ok(()) => Status::Passed,
             Err(why) => Status::Failed(why),
         };
-        Self { format, tool, question, status, numbers: Vec::new(), note: None }
+        Self {
+            format,
+            tool,
+            question,
+            status,
+            numbers: Vec::new(),
+            note: None,
+        }
     }
 
     fn skipped(format: Format, tool: &'static str, question: &'static str, why: String) -> Self {
-        Self { format, tool, question, status: Status::Skipped(why), numbers: Vec::new(), note: None }
+        Self {
+            format,
+            tool,
+            question,
+            status: Status::Skipped(why),
+            numbers: Vec::new(),
+            note: None,
+        }
     }
 
     /// Greatest absolute error in distribution, where one was measured.
     pub fn worst_in_distribution(&self) -> Option<f64> {
-        self.numbers.iter().find(|n| n.kind == RowKind::InDistribution).map(|n| n.export.worst())
+        self.numbers
+            .iter()
+            .find(|n| n.kind == RowKind::InDistribution)
+            .map(|n| n.export.worst())
     }
 }
 
@@ -180,19 +201,37 @@ impl Reference {
     /// what is left, which is the same network wherever they do not.
     fn new(whole: &Mlp, left: Option<(&Mlp, &Pruned)>, in_distribution: usize, extreme: usize) -> Result<Self, String> {
         let network = left.map_or(whole, |(left, _)| left);
-        let rows = vec![rows::in_distribution(whole, in_distribution)?, rows::extreme(whole.feature_set().width(), extreme)];
+        let rows = vec![
+            rows::in_distribution(whole, in_distribution)?,
+            rows::extreme(whole.feature_set().width(), extreme),
+        ];
         let controls = controls(whole, PERTURBATION);
         let answers = rows
             .iter()
             .map(|rows| {
-                let subject = if rows.kind == RowKind::InDistribution { whole } else { network };
+                let subject = if rows.kind == RowKind::InDistribution {
+                    whole
+                } else {
+                    network
+                };
                 let exact = subject.forward_batch::<f64>(&rows.features);
                 // Two f32 passes of ours, with and without fused multiply-adds: the one that is further off says what f32 costs.
-                let passes = [subject.forward_batch::<f32>(&rows.features), subject.predict(&rows.features)];
+                let passes = [
+                    subject.forward_batch::<f32>(&rows.features),
+                    subject.predict(&rows.features),
+                ];
                 let [plain, fused] = passes.map(|pass| AbsoluteError::of(&widen(&pass), &exact));
                 let ours = if fused.worst() > plain.worst() { fused } else { plain };
-                let controls = controls.iter().map(|(name, mlp)| (*name, mlp.forward_batch::<f64>(&rows.features))).collect();
-                Answers { exact, ours, controls, half: OnceCell::new() }
+                let controls = controls
+                    .iter()
+                    .map(|(name, mlp)| (*name, mlp.forward_batch::<f64>(&rows.features)))
+                    .collect();
+                Answers {
+                    exact,
+                    ours,
+                    controls,
+                    half: OnceCell::new(),
+                }
             })
             .collect();
         let note = left.map(|(_, pruned)| {
@@ -209,16 +248,27 @@ impl Reference {
                 firing.join(" and on ")
             )
         });
-        Ok(Self { network: network.clone(), rows, answers, note })
+        Ok(Self {
+            network: network.clone(),
+            rows,
+            answers,
+            note,
+        })
     }
 
     /// What f16 costs on rows of one kind.
     fn half<'a>(&self, rows: &CheckRows, answers: &'a Answers) -> Result<&'a Half, String> {
         let made = || {
             let limit = half_limit(&self.network).map_err(|e| e.to_string())?;
-            let ours = AbsoluteError::of(&widen(&half::forward_batch(&self.network, limit, &rows.features)), &answers.exact);
+            let ours = AbsoluteError::of(
+                &widen(&half::forward_batch(&self.network, limit, &rows.features)),
+                &answers.exact,
+            );
             let controls = controls(&self.network, HALF_PERTURBATION);
-            let controls = controls.iter().map(|(name, mlp)| (*name, mlp.forward_batch::<f64>(&rows.features))).collect();
+            let controls = controls
+                .iter()
+                .map(|(name, mlp)| (*name, mlp.forward_batch::<f64>(&rows.features)))
+                .collect();
             Ok(Half { ours, controls })
         };
         answers.half.get_or_init(made).as_ref().map_err(Clone::clone)
@@ -253,7 +303,12 @@ impl Reference {
             (Precision::F16, _) => (bar, mean_bar) = (bar.min(1.0), 1.0),
             _ => {}
         }
-        Ok(Bars { bar, mean_bar, ours, controls })
+        Ok(Bars {
+            bar,
+            mean_bar,
+            ours,
+            controls,
+        })
     }
 
     /// Runs an export on all rows and compares.
@@ -282,7 +337,12 @@ impl Reference {
                 }
             };
             let export = AbsoluteError::of(&out, exact);
-            let Bars { bar, mean_bar, ours, controls } = bars;
+            let Bars {
+                bar,
+                mean_bar,
+                ours,
+                controls,
+            } = bars;
             if !bars.hold(&export) {
                 problems.push(format!(
                     "{}: worst error {:.2e}, mean {:.2e} against f64, {} non-finite; at most {bar:.2e} and {mean_bar:.2e} are allowed (our own pass: {:.2e}, {:.2e})",
@@ -298,13 +358,32 @@ impl Reference {
                 problems.push(format!("{}: an answer lies outside [0, 1]", rows.kind.name()));
             }
             if rows.kind == RowKind::InDistribution {
-                let passed = controls.iter().filter(|(_, control)| bars.hold(&AbsoluteError::of(&out, control))).map(|(name, _)| *name);
-                problems.extend(passed.map(|name| format!("the check is blind: a network with {name} would have passed too")));
+                let passed = controls
+                    .iter()
+                    .filter(|(_, control)| bars.hold(&AbsoluteError::of(&out, control)))
+                    .map(|(name, _)| *name);
+                problems.extend(
+                    passed.map(|name| format!("the check is blind: a network with {name} would have passed too")),
+                );
             }
-            numbers.push(Numbers { kind: rows.kind, export, reference: ours, bar, mean_bar });
+            numbers.push(Numbers {
+                kind: rows.kind,
+                export,
+                reference: ours,
+                bar,
+                mean_bar,
+            });
         }
-        let result = if problems.is_empty() { Ok(()) } else { Err(problems.join("; ")) };
-        Finding { numbers, note: self.note.clone(), ..Finding::new(format, tool, "computes the reference", result) }
+        let result = if problems.is_empty() {
+            Ok(())
+        } else {
+            Err(problems.join("; "))
+        };
+        Finding {
+            numbers,
+            note: self.note.clone(),
+            ..Finding::new(format, tool, "computes the reference", result)
+        }
     }
 }
 
@@ -314,24 +393,37 @@ fn widen(values: &[f32]) -> Vec<f64> {
 
 /// Networks that must not pass in another's place.
 fn controls(mlp: &Mlp, perturbation: f32) -> Vec<(&'static str, Mlp)> {
-    let rebuilt = |layers: Vec<Dense>| Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone()).expect("shapes are unchanged");
+    let rebuilt = |layers: Vec<Dense>| {
+        Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone()).expect("shapes are unchanged")
+    };
     let mut perturbed = mlp.layers().to_vec();
     let last = perturbed.last_mut().expect("at least one layer");
-    let greatest = (0..last.weights.len()).max_by(|&a, &b| last.weights[a].abs().total_cmp(&last.weights[b].abs())).unwrap_or(0);
+    let greatest = (0..last.weights.len())
+        .max_by(|&a, &b| last.weights[a].abs().total_cmp(&last.weights[b].abs()))
+        .unwrap_or(0);
     last.weights[greatest] += perturbation;
     last.biases[0] += perturbation;
 
     // The two features that the first layer treats most differently.
     let first = &mlp.layers()[0];
-    let difference = |i: usize, j: usize| -> f32 { (0..first.outputs()).map(|o| (first.weight(i, o) - first.weight(j, o)).abs()).sum() };
+    let difference = |i: usize, j: usize| -> f32 {
+        (0..first.outputs())
+            .map(|o| (first.weight(i, o) - first.weight(j, o)).abs())
+            .sum()
+    };
     let pairs = (0..first.inputs()).flat_map(|i| (0..i).map(move |j| (i, j)));
-    let (i, j) = pairs.max_by(|&a, &b| difference(a.0, a.1).total_cmp(&difference(b.0, b.1))).unwrap_or((0, 0));
+    let (i, j) = pairs
+        .max_by(|&a, &b| difference(a.0, a.1).total_cmp(&difference(b.0, b.1)))
+        .unwrap_or((0, 0));
     let mut swapped = mlp.layers().to_vec();
     let outputs = first.outputs();
     for o in 0..outputs {
         swapped[0].weights.swap(i * outputs + o, j * outputs + o);
     }
-    let mut controls = vec![("one weight perturbed", rebuilt(perturbed)), ("two features swapped", rebuilt(swapped))];
+    let mut controls = vec![
+        ("one weight perturbed", rebuilt(perturbed)),
+        ("two features swapped", rebuilt(swapped)),
+    ];
 
     // A layer with one input or one output is its own transpose.
     if let Some(index) = mlp.layers().iter().position(|l| l.inputs() > 1 && l.outputs() > 1) {
@@ -362,11 +454,20 @@ impl<'a> Subject<'a> {
     fn new(whole: &'a Mlp, pruned: Option<Pruned>, options: CheckOptions) -> Result<Self, String> {
         let network = match &pruned {
             None => whole.clone(),
-            Some(pruned) => without_units(whole, &pruned.units).map_err(|e| format!("it was taken out of another network: {e}"))?,
+            Some(pruned) => {
+                without_units(whole, &pruned.units).map_err(|e| format!("it was taken out of another network: {e}"))?
+            }
         };
         let left = pruned.as_ref().map(|pruned| (&network, pruned));
         let reference = Reference::new(whole, left, options.rows, options.extreme_rows)?;
-        Ok(Self { pruned, network, reference, on_gpu: OnceCell::new(), whole, options })
+        Ok(Self {
+            pruned,
+            network,
+            reference,
+            on_gpu: OnceCell::new(),
+            whole,
+            options,
+        })
     }
 
     /// A GPU is quick, and gets more rows; they are made when the first export asks for them.
@@ -374,7 +475,10 @@ impl<'a> Subject<'a> {
         self.on_gpu.get_or_init(|| {
             let gpu = Gpu::shared().map_err(|why| why.to_string())?;
             let left = self.pruned.as_ref().map(|pruned| (&self.network, pruned));
-            Ok(OnGpu { gpu, reference: Reference::new(self.whole, left, self.options.gpu_rows, self.options.gpu_rows / 10) })
+            Ok(OnGpu {
+                gpu,
+                reference: Reference::new(self.whole, left, self.options.gpu_rows, self.options.gpu_rows / 10),
+            })
         })
     }
 
@@ -393,8 +497,9 @@ impl<'a> Subject<'a> {
         let width = self.network.feature_set().width();
         match &on_gpu.reference {
             Err(why) => Finding::new(format, TOOL, QUESTION, Err(why.clone())),
-            Ok(reference) => reference
-                .compare(format, TOOL, |rows| compute::run_rows(gpu, source, function, rows, width).map_err(|e| format!("{}: {e}", gpu.name()))),
+            Ok(reference) => reference.compare(format, TOOL, |rows| {
+                compute::run_rows(gpu, source, function, rows, width).map_err(|e| format!("{}: {e}", gpu.name()))
+            }),
         }
     }
 }
@@ -414,24 +519,46 @@ fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
             return Ok(mlp.ok().and_then(|mlp| mlp.provenance.pruned));
         }
         Format::Onnx => {
-            let properties = onnx_export::decode(bytes).map(|model| model.metadata_props).unwrap_or_default();
-            properties.into_iter().find(|p| p.key == onnx_export::PRUNED).map(|p| p.value)
+            let properties = onnx_export::decode(bytes)
+                .map(|model| model.metadata_props)
+                .unwrap_or_default();
+            properties
+                .into_iter()
+                .find(|p| p.key == onnx_export::PRUNED)
+                .map(|p| p.value)
         }
         _ => {
             let spirv = matches!(format, Format::Spirv | Format::SpirvF16);
-            let text = if spirv { translate::string_of(bytes).unwrap_or_default() } else { String::from_utf8_lossy(bytes).into_owned() };
-            let mark = if spirv { PRUNED.to_owned() } else { format!("// {PRUNED}") };
-            text.lines().find_map(|line| line.strip_prefix(&mark)).map(|line| line.trim_end_matches('.').to_owned())
+            let text = if spirv {
+                translate::string_of(bytes).unwrap_or_default()
+            } else {
+                String::from_utf8_lossy(bytes).into_owned()
+            };
+            let mark = if spirv {
+                PRUNED.to_owned()
+            } else {
+                format!("// {PRUNED}")
+            };
+            text.lines()
+                .find_map(|line| line.strip_prefix(&mark))
+                .map(|line| line.trim_end_matches('.').to_owned())
         }
     };
-    line.map(|line| Pruned::from_text(&line).map_err(|e| e.to_string())).transpose()
+    line.map(|line| Pruned::from_text(&line).map_err(|e| e.to_string()))
+        .transpose()
 }
 
 /// Checks every export of a network that stands in a folder; nothing is written.
 ///
 /// A format that is not there is a failed finding that names the file. An export that says that units were taken out must hold what is then left of the
 /// network, and is held to the whole network's answers in distribution.
-pub fn check(mlp: &Mlp, folder: &Path, formats: &[Format], options: CheckOptions, progress: &dyn Fn(&'static str)) -> Vec<Finding> {
+pub fn check(
+    mlp: &Mlp,
+    folder: &Path,
+    formats: &[Format],
+    options: CheckOptions,
+    progress: &dyn Fn(&'static str),
+) -> Vec<Finding> {
     progress("reference");
     let mut subjects: Vec<Subject<'_>> = Vec::new();
     let mut findings = Vec::new();
@@ -441,7 +568,12 @@ pub fn check(mlp: &Mlp, folder: &Path, formats: &[Format], options: CheckOptions
         let bytes = match read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                findings.push(Finding::new(format, "nmt", "is there", Err(format!("{error}; 'nmt export' writes it"))));
+                findings.push(Finding::new(
+                    format,
+                    "nmt",
+                    "is there",
+                    Err(format!("{error}; 'nmt export' writes it")),
+                ));
                 continue;
             }
         };
@@ -464,7 +596,9 @@ pub fn check(mlp: &Mlp, folder: &Path, formats: &[Format], options: CheckOptions
             Format::Onnx => check_onnx(subject, &bytes, &mut findings),
             Format::Metal | Format::MetalF16 => check_metal(subject, format, &bytes, &mut findings),
             Format::Spirv | Format::SpirvF16 => check_spirv(subject, format, &bytes, &mut findings),
-            Format::Hlsl | Format::HlslPlain | Format::HlslF16 | Format::HlslPlainF16 => check_hlsl(subject, format, &bytes, &mut findings),
+            Format::Hlsl | Format::HlslPlain | Format::HlslF16 | Format::HlslPlainF16 => {
+                check_hlsl(subject, format, &bytes, &mut findings)
+            }
             _ => check_shader(subject, format, &bytes, &mut findings),
         }
     }
@@ -477,9 +611,18 @@ fn check_json(subject: &Subject<'_>, path: &Path, bytes: &[u8], findings: &mut V
     match file::from_json(bytes, path) {
         Err(error) => findings.push(Finding::new(FORMAT, "nmt", "parses", Err(error.to_string()))),
         Ok(back) => {
-            let bits = |m: &Mlp| -> Vec<u32> { m.layers().iter().flat_map(|l| l.weights.iter().chain(&l.biases)).map(|w| w.to_bits()).collect() };
-            let same = back.sizes() == mlp.sizes() && back.feature_set() == mlp.feature_set() && bits(&back) == bits(mlp);
-            let result = same.then_some(()).ok_or_else(|| "its weights are not the network's".to_owned());
+            let bits = |m: &Mlp| -> Vec<u32> {
+                m.layers()
+                    .iter()
+                    .flat_map(|l| l.weights.iter().chain(&l.biases))
+                    .map(|w| w.to_bits())
+                    .collect()
+            };
+            let same =
+                back.sizes() == mlp.sizes() && back.feature_set() == mlp.feature_set() && bits(&back) == bits(mlp);
+            let result = same
+                .then_some(())
+                .ok_or_else(|| "its weights are not the network's".to_owned());
             findings.push(Finding::new(FORMAT, "nmt", "weights bit for bit", result));
             findings.push(subject.reference.compare(FORMAT, "nmt", |rows| {
                 if back.feature_set() == mlp.feature_set() {
@@ -503,7 +646,12 @@ fn text_of<'a>(format: Format, tool: &'static str, bytes: &'a [u8], findings: &m
     match std::str::from_utf8(bytes) {
         Ok(text) => Some(text),
         Err(error) => {
-            findings.push(Finding::new(format, tool, "parses and validates", Err(error.to_string())));
+            findings.push(Finding::new(
+                format,
+                tool,
+                "parses and validates",
+                Err(error.to_string()),
+            ));
             None
         }
     }
@@ -514,12 +662,19 @@ fn by_glslang(format: Format, result: Option<Result<(), String>>) -> Finding {
     const TOOL: &str = "glslangValidator";
     match result {
         Some(result) => Finding::new(format, TOOL, "compiles", result),
-        None => Finding::skipped(format, TOOL, "compiles", "not installed (Debian: glslang-tools)".to_owned()),
+        None => Finding::skipped(
+            format,
+            TOOL,
+            "compiles",
+            "not installed (Debian: glslang-tools)".to_owned(),
+        ),
     }
 }
 
 fn check_shader(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mut Vec<Finding>) {
-    let Some(text) = text_of(format, "naga", bytes, findings) else { return };
+    let Some(text) = text_of(format, "naga", bytes, findings) else {
+        return;
+    };
     let module = match shader::parse(format, text) {
         Ok(module) => module,
         Err(why) => return findings.push(Finding::new(format, "naga", "parses and validates", Err(why))),
@@ -529,20 +684,52 @@ fn check_shader(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &
     if glsl {
         findings.push(by_glslang(format, shader::glslang(text)));
     }
-    findings.push(Finding::new(format, "naga", "weights bit for bit", weights(subject, format, shader::constants(&module))));
-    findings.push(Finding::new(format, "naga", "literal indices only", shader::literal_indices(&module)));
+    findings.push(Finding::new(
+        format,
+        "naga",
+        "weights bit for bit",
+        weights(subject, format, shader::constants(&module)),
+    ));
+    findings.push(Finding::new(
+        format,
+        "naga",
+        "literal indices only",
+        shader::literal_indices(&module),
+    ));
     let interpreter = Interpreter::new(&module);
     let width = subject.network.feature_set().width();
-    findings.push(subject.reference.compare(format, "interpreter", |rows| interpreter.call_rows(ENTRY, rows, width).map_err(|e| e.to_string())));
-    findings.push(subject.run_on_gpu(format, if glsl { compute::Source::Glsl(text) } else { compute::Source::Wgsl(text) }, ENTRY));
+    findings.push(subject.reference.compare(format, "interpreter", |rows| {
+        interpreter.call_rows(ENTRY, rows, width).map_err(|e| e.to_string())
+    }));
+    findings.push(subject.run_on_gpu(
+        format,
+        if glsl {
+            compute::Source::Glsl(text)
+        } else {
+            compute::Source::Wgsl(text)
+        },
+        ENTRY,
+    ));
 }
 
 fn check_hlsl(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mut Vec<Finding>) {
     const SLANGC: &str = "slangc";
     const QUESTION: &str = "computes the reference";
-    let Some(text) = text_of(format, "nmt", bytes, findings) else { return };
-    findings.push(Finding::new(format, "nmt", "weights bit for bit", weights(subject, format, hlsl::constants(text))));
-    findings.push(Finding::new(format, "nmt", "literal indices only", hlsl::literal_indices(text)));
+    let Some(text) = text_of(format, "nmt", bytes, findings) else {
+        return;
+    };
+    findings.push(Finding::new(
+        format,
+        "nmt",
+        "weights bit for bit",
+        weights(subject, format, hlsl::constants(text)),
+    ));
+    findings.push(Finding::new(
+        format,
+        "nmt",
+        "literal indices only",
+        hlsl::literal_indices(text),
+    ));
     let width = subject.network.feature_set().width();
     let whole = hlsl::with_rows(text, width);
     findings.push(by_glslang(format, hlsl::glslang(&whole)));
@@ -550,7 +737,12 @@ fn check_hlsl(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mu
         Ok(slangc) => slangc,
         Err(why) => {
             findings.push(Finding::skipped(format, SLANGC, "compiles", why.clone()));
-            return findings.push(Finding::skipped(format, SLANGC, QUESTION, format!("on the CPU and on a GPU: {why}")));
+            return findings.push(Finding::skipped(
+                format,
+                SLANGC,
+                QUESTION,
+                format!("on the CPU and on a GPU: {why}"),
+            ));
         }
     };
     let wgsl = match hlsl::to_wgsl(&slangc, &whole, hlsl::ROWS) {
@@ -561,35 +753,71 @@ fn check_hlsl(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mu
     // What slangc made is run as WGSL is: by the interpreter, and on the GPU.
     let module = match translate::parse_wgsl(&wgsl) {
         Ok((module, _)) => module,
-        Err(why) => return findings.push(Finding::new(format, SLANGC, QUESTION, Err(format!("naga does not read slangc's WGSL: {why}")))),
+        Err(why) => {
+            return findings.push(Finding::new(
+                format,
+                SLANGC,
+                QUESTION,
+                Err(format!("naga does not read slangc's WGSL: {why}")),
+            ));
+        }
     };
     let interpreter = Interpreter::new(&module);
     let function = match interpreter.function_like(ENTRY) {
         Ok(function) => function,
         Err(why) => return findings.push(Finding::new(format, SLANGC, QUESTION, Err(why.to_string()))),
     };
-    findings.push(subject.reference.compare(format, SLANGC, |rows| interpreter.call_rows(function, rows, width).map_err(|e| e.to_string())));
+    findings.push(subject.reference.compare(format, SLANGC, |rows| {
+        interpreter.call_rows(function, rows, width).map_err(|e| e.to_string())
+    }));
     findings.push(subject.run_on_gpu(format, compute::Source::Wgsl(&wgsl), function));
 }
 
 fn check_metal(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mut Vec<Finding>) {
-    let Some(text) = text_of(format, "nmt", bytes, findings) else { return };
+    let Some(text) = text_of(format, "nmt", bytes, findings) else {
+        return;
+    };
     let constants = translated::metal_constants(text);
-    let used =
-        constants.clone().and_then(|constants| translated::metal_uses(text, &constants, network_function(subject.reference.network.feature_set())));
-    findings.push(Finding::new(format, "nmt", "weights bit for bit", weights(subject, format, constants)));
+    let used = constants.clone().and_then(|constants| {
+        translated::metal_uses(
+            text,
+            &constants,
+            network_function(subject.reference.network.feature_set()),
+        )
+    });
+    findings.push(Finding::new(
+        format,
+        "nmt",
+        "weights bit for bit",
+        weights(subject, format, constants),
+    ));
     findings.push(Finding::new(format, "nmt", "weights are used as they stand", used));
     let why =
         "Apple's compiler alone could tell; naga validated the module that it wrote this text of, and the WGSL of the same network runs".to_owned();
-    findings.push(Finding::skipped(format, "metal", "compiles and computes the reference", why));
+    findings.push(Finding::skipped(
+        format,
+        "metal",
+        "compiles and computes the reference",
+        why,
+    ));
 }
 
 fn check_spirv(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &mut Vec<Finding>) {
     const TOOL: &str = "spirv-val";
-    findings.push(Finding::new(format, "nmt", "weights bit for bit", weights(subject, format, translated::spirv_constants(bytes))));
+    findings.push(Finding::new(
+        format,
+        "nmt",
+        "weights bit for bit",
+        weights(subject, format, translated::spirv_constants(bytes)),
+    ));
     findings.push(match translated::spirv_val(bytes) {
         Some(result) => Finding::new(format, TOOL, "is valid", result),
-        None => Finding::skipped(format, TOOL, "is valid", "not installed (Debian: spirv-tools)".to_owned()),
+        None => Finding::skipped(
+            format,
+            TOOL,
+            "is valid",
+            "not installed (Debian: spirv-tools)".to_owned(),
+        ),
     });
     let why = "WebGPU takes no SPIR-V; naga validated the module that it wrote this of, and the WGSL of the same network runs".to_owned();
     findings.push(Finding::skipped(format, "vulkan", "computes the reference", why));
@@ -598,10 +826,21 @@ fn check_spirv(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &m
 fn check_onnx(subject: &Subject<'_>, bytes: &[u8], findings: &mut Vec<Finding>) {
     const FORMAT: Format = Format::Onnx;
     let width = subject.network.feature_set().width();
-    findings.push(Finding::new(FORMAT, "nmt", "weights bit for bit", onnx::weights(bytes, &subject.network)));
-    findings.push(subject.reference.compare(FORMAT, "rten", |rows| onnx::rten(bytes, rows, width)));
+    findings.push(Finding::new(
+        FORMAT,
+        "nmt",
+        "weights bit for bit",
+        onnx::weights(bytes, &subject.network),
+    ));
+    findings.push(
+        subject
+            .reference
+            .compare(FORMAT, "rten", |rows| onnx::rten(bytes, rows, width)),
+    );
     findings.push(match onnx::library() {
-        Ok(library) => subject.reference.compare(FORMAT, "onnxruntime", |rows| onnx::onnxruntime(&library, bytes, rows, width)),
+        Ok(library) => subject.reference.compare(FORMAT, "onnxruntime", |rows| {
+            onnx::onnxruntime(&library, bytes, rows, width)
+        }),
         Err(why) => Finding::skipped(FORMAT, "onnxruntime", "computes the reference", why),
     });
 }
@@ -624,7 +863,11 @@ mod tests {
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::file::Replace;
 
-    const FEW: CheckOptions = CheckOptions { rows: 2000, extreme_rows: 500, gpu_rows: 4000 };
+    const FEW: CheckOptions = CheckOptions {
+        rows: 2000,
+        extreme_rows: 500,
+        gpu_rows: 4000,
+    };
 
     fn failures(findings: &[Finding]) -> Vec<String> {
         let failed = findings.iter().filter_map(|f| match &f.status {
@@ -653,9 +896,13 @@ mod tests {
         let other = Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone()).unwrap();
         let failed = failures(&check(&other, folder.path(), &Format::ALL, FEW, &|_| {}));
         for format in Format::ALL {
-            let of_format = failed.iter().filter(|f| f.starts_with(&format!("{} ", format.name()))).count();
+            let of_format = failed
+                .iter()
+                .filter(|f| f.starts_with(&format!("{} ", format.name())))
+                .count();
             // What nothing runs has its weights only, and f16 has no eye for so little.
-            let runs = !matches!(format, Format::Metal | Format::Spirv) && format.kind().is_none_or(|k| k.precision == Precision::F32);
+            let runs = !matches!(format, Format::Metal | Format::Spirv)
+                && format.kind().is_none_or(|k| k.precision == Precision::F32);
             let runs = runs && (!matches!(format, Format::Hlsl | Format::HlslPlain) || hlsl::slangc().is_ok());
             assert!(of_format >= if runs { 2 } else { 1 }, "{}: {failed:#?}", format.name());
         }
@@ -685,16 +932,37 @@ mod tests {
             "{notes:?}"
         );
 
-        let active = (0..12).find(|u| !left.provenance.pruned.as_ref().unwrap().units[0].contains(u)).unwrap();
+        let active = (0..12)
+            .find(|u| !left.provenance.pruned.as_ref().unwrap().units[0].contains(u))
+            .unwrap();
         let units = vec![vec![active], vec![]];
         let mut wrong = without_units(&whole, &units).unwrap();
-        wrong.provenance.pruned = Some(Pruned { units, rows: 5000, of_multiply_adds: whole.multiply_adds() });
-        let failed = failures(&check(&whole, exported(&wrong).path(), &[Format::Wgsl, Format::Onnx, Format::Json], FEW, &|_| {}));
-        assert!(["wgsl interpreter", "onnx rten", "json nmt"].iter().all(|start| failed.iter().any(|f| f.starts_with(start))), "{failed:#?}");
+        wrong.provenance.pruned = Some(Pruned {
+            units,
+            rows: 5000,
+            of_multiply_adds: whole.multiply_adds(),
+        });
+        let failed = failures(&check(
+            &whole,
+            exported(&wrong).path(),
+            &[Format::Wgsl, Format::Onnx, Format::Json],
+            FEW,
+            &|_| {},
+        ));
+        assert!(
+            ["wgsl interpreter", "onnx rten", "json nmt"]
+                .iter()
+                .all(|start| failed.iter().any(|f| f.starts_with(start))),
+            "{failed:#?}"
+        );
 
         let path = folder.path().join("random.wgsl");
         let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::write(&path, text.replace("layer 1 without ", &format!("layer 1 without {active}, "))).unwrap();
+        std::fs::write(
+            &path,
+            text.replace("layer 1 without ", &format!("layer 1 without {active}, ")),
+        )
+        .unwrap();
         let failed = failures(&check(&whole, folder.path(), &[Format::Wgsl], FEW, &|_| {}));
         assert!(failed.iter().any(|f| f.contains("NMT_W1")), "{failed:#?}");
         std::fs::write(&path, text.replace("layer 1 without ", "layer 9 without 1, ")).unwrap();
@@ -711,12 +979,21 @@ mod tests {
         std::fs::write(folder.path().join("random.json"), "{").unwrap();
         let failed = failures(&check(&mlp, folder.path(), &Format::DEFAULT, FEW, &|_| {}));
         assert_eq!(failed.len(), 3, "{failed:#?}");
-        assert!(failed.iter().any(|f| f.contains("random.onnx") && f.contains("nmt export")));
+        assert!(
+            failed
+                .iter()
+                .any(|f| f.contains("random.onnx") && f.contains("nmt export"))
+        );
     }
 
     #[test]
     fn required_tools_may_not_be_skipped() {
-        let mut findings = vec![Finding::skipped(Format::Onnx, "onnxruntime", "computes the reference", "not found".to_owned())];
+        let mut findings = vec![Finding::skipped(
+            Format::Onnx,
+            "onnxruntime",
+            "computes the reference",
+            "not found".to_owned(),
+        )];
         require(&mut findings, &["gpu".to_owned()]);
         assert!(matches!(findings[0].status, Status::Skipped(_)));
         require(&mut findings, &["onnxruntime".to_owned()]);

@@ -18,7 +18,11 @@ pub fn weights(bytes: &[u8], mlp: &Mlp) -> Result<(), String> {
     let graph = model.graph.ok_or("not an ONNX file: it holds no graph")?;
     let mut expected = Vec::new();
     for (index, dense) in mlp.layers().iter().enumerate() {
-        expected.push((weights_name(index), vec![dense.inputs() as i64, dense.outputs() as i64], dense.weights.clone()));
+        expected.push((
+            weights_name(index),
+            vec![dense.inputs() as i64, dense.outputs() as i64],
+            dense.weights.clone(),
+        ));
         expected.push((biases_name(index), vec![dense.outputs() as i64], dense.biases.clone()));
     }
     if let Answer::Fraction { column, offset } = mlp.feature_set().answer() {
@@ -26,20 +30,44 @@ pub fn weights(bytes: &[u8], mlp: &Mlp) -> Result<(), String> {
         expected.extend(tensors.map(|(name, dims, values)| (name.to_owned(), dims, values)));
     }
     if graph.initializer.len() != expected.len() {
-        return Err(format!("{} tensors, the network has {}", graph.initializer.len(), expected.len()));
+        return Err(format!(
+            "{} tensors, the network has {}",
+            graph.initializer.len(),
+            expected.len()
+        ));
     }
     for (name, dims, values) in expected {
-        let tensor = graph.initializer.iter().find(|t| t.name == name).ok_or_else(|| format!("there is no tensor '{name}'"))?;
+        let tensor = graph
+            .initializer
+            .iter()
+            .find(|t| t.name == name)
+            .ok_or_else(|| format!("there is no tensor '{name}'"))?;
         if tensor.dims != dims || tensor.raw_data.len() != 4 * values.len() {
-            return Err(format!("tensor '{name}' has shape {:?}, the network's is {dims:?}", tensor.dims));
+            return Err(format!(
+                "tensor '{name}' has shape {:?}, the network's is {dims:?}",
+                tensor.dims
+            ));
         }
-        let found = tensor.raw_data.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        if let Some((at, (found, value))) = found.zip(&values).enumerate().find(|(_, (f, v))| f.to_bits() != v.to_bits()) {
-            return Err(format!("tensor '{name}': number {at} is {found:?}, the network has {value:?}"));
+        let found = tensor
+            .raw_data
+            .chunks_exact(4)
+            .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        if let Some((at, (found, value))) = found
+            .zip(&values)
+            .enumerate()
+            .find(|(_, (f, v))| f.to_bits() != v.to_bits())
+        {
+            return Err(format!(
+                "tensor '{name}': number {at} is {found:?}, the network has {value:?}"
+            ));
         }
     }
     let columns = mlp.feature_set().columns().join(",");
-    if !model.metadata_props.iter().any(|p| p.key == "nmt.features" && p.value == columns) {
+    if !model
+        .metadata_props
+        .iter()
+        .any(|p| p.key == "nmt.features" && p.value == columns)
+    {
         return Err(format!("its metadata do not name the features {columns}"));
     }
     Ok(())
@@ -53,9 +81,14 @@ pub fn library() -> Result<PathBuf, String> {
     match std::env::var_os(LIBRARY_VARIABLE) {
         Some(path) if !path.is_empty() => match PathBuf::from(path) {
             path if path.is_file() => Ok(path),
-            path => Err(format!("{LIBRARY_VARIABLE} names {}, which is not a file", path.display())),
+            path => Err(format!(
+                "{LIBRARY_VARIABLE} names {}, which is not a file",
+                path.display()
+            )),
         },
-        _ => Err(format!("not found: set {LIBRARY_VARIABLE} to libonnxruntime.so, for example the one inside PyPI's onnxruntime wheel")),
+        _ => Err(format!(
+            "not found: set {LIBRARY_VARIABLE} to libonnxruntime.so, for example the one inside PyPI's onnxruntime wheel"
+        )),
     }
 }
 
@@ -72,13 +105,21 @@ impl Session {
     pub fn new(library: &Path, bytes: &[u8], threads: Option<usize>) -> Result<Self, String> {
         // A process may have one environment only.
         static ENVIRONMENT: OnceLock<Result<ort::environment::Environment, String>> = OnceLock::new();
-        let made = || ort::init_from(library).map_err(|e| e.to_string())?.with_telemetry(false).build().map_err(|e| e.to_string());
+        let made = || {
+            ort::init_from(library)
+                .map_err(|e| e.to_string())?
+                .with_telemetry(false)
+                .build()
+                .map_err(|e| e.to_string())
+        };
         let environment = ENVIRONMENT.get_or_init(made).as_ref().map_err(Clone::clone)?;
         let mut builder = ort::session::Session::builder(environment).map_err(|e| e.to_string())?;
         if let Some(threads) = threads {
             builder = builder.with_intra_threads(threads).map_err(|e| e.to_string())?;
         }
-        Ok(Self { session: builder.commit_from_memory(bytes).map_err(|e| e.to_string())? })
+        Ok(Self {
+            session: builder.commit_from_memory(bytes).map_err(|e| e.to_string())?,
+        })
     }
 
     /// Runs the graph and hands its answers over.
@@ -91,9 +132,15 @@ impl Session {
     pub fn run<T>(&mut self, rows: &[f32], width: usize, read: impl FnOnce(&[f32]) -> T) -> Result<T, String> {
         let n = rows.len() / width;
         let input = ort::value::TensorRef::from_array_view(([n, width], rows)).map_err(|e| e.to_string())?;
-        let outputs = self.session.run(ort::inputs![INPUT => input]).map_err(|e| e.to_string())?;
-        let (shape, values) =
-            outputs.get(OUTPUT).ok_or("there is no output 'transmittance'")?.try_extract_tensor::<f32>().map_err(|e| e.to_string())?;
+        let outputs = self
+            .session
+            .run(ort::inputs![INPUT => input])
+            .map_err(|e| e.to_string())?;
+        let (shape, values) = outputs
+            .get(OUTPUT)
+            .ok_or("there is no output 'transmittance'")?
+            .try_extract_tensor::<f32>()
+            .map_err(|e| e.to_string())?;
         if shape[..] != [n as i64, 1] {
             return Err(format!("output has shape {shape:?}, expected [{n}, 1]"));
         }
@@ -123,8 +170,13 @@ pub fn rten(bytes: &[u8], rows: &[f32], width: usize) -> Result<Vec<f32>, String
     let model = rten::Model::load(bytes.to_vec()).map_err(|e| e.to_string())?;
     let n = rows.len() / width;
     let input = rten::Value::from_shape([n, width], rows.to_vec()).map_err(|e| e.to_string())?;
-    let (from, to) = (model.node_id(INPUT).map_err(|e| e.to_string())?, model.node_id(OUTPUT).map_err(|e| e.to_string())?);
-    let [output] = model.run_n(vec![(from, input.into())], [to], None).map_err(|e| e.to_string())?;
+    let (from, to) = (
+        model.node_id(INPUT).map_err(|e| e.to_string())?,
+        model.node_id(OUTPUT).map_err(|e| e.to_string())?,
+    );
+    let [output] = model
+        .run_n(vec![(from, input.into())], [to], None)
+        .map_err(|e| e.to_string())?;
     let ([rows, columns], values) = output.into_shape_vec::<f32, 2>().map_err(|e| e.to_string())?;
     if [rows, columns] != [n, 1] {
         return Err(format!("output has shape [{rows}, {columns}], expected [{n}, 1]"));
@@ -146,10 +198,18 @@ mod tests {
         weights(&bytes, &mlp).unwrap();
         let mut model = decode(&bytes).unwrap();
         model.graph.as_mut().unwrap().initializer[2].raw_data[4] ^= 1;
-        assert!(weights(&model.encode_to_vec(), &mlp).unwrap_err().contains("tensor 'W2': number 1"));
+        assert!(
+            weights(&model.encode_to_vec(), &mlp)
+                .unwrap_err()
+                .contains("tensor 'W2': number 1")
+        );
         let mut model = decode(&bytes).unwrap();
         model.graph.as_mut().unwrap().initializer[0].dims.reverse();
-        assert!(weights(&model.encode_to_vec(), &mlp).unwrap_err().contains("has shape [6, 7]"));
+        assert!(
+            weights(&model.encode_to_vec(), &mlp)
+                .unwrap_err()
+                .contains("has shape [6, 7]")
+        );
         assert!(weights(&bytes[..bytes.len() / 2], &mlp).is_err());
         assert!(weights(b"not onnx", &mlp).is_err());
         assert!(weights(&[], &mlp).is_err());

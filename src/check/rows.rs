@@ -45,7 +45,10 @@ impl RowKind {
 /// # Errors
 /// In words, where the provenance holds a configuration that cannot be used.
 pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
-    Ok(CheckRows { kind: RowKind::InDistribution, features: sampled(mlp, count, SEED)? })
+    Ok(CheckRows {
+        kind: RowKind::InDistribution,
+        features: sampled(mlp, count, SEED)?,
+    })
 }
 
 /// Features of `count` rows as [`in_distribution`] has them, of the random pixels of a seed; those of the check have another seed than a caller may choose.
@@ -66,13 +69,19 @@ pub fn sampled(mlp: &Mlp, count: usize, seed: u64) -> Result<Vec<f32>, String> {
     let mut fragments = count as u64;
     let mut features = loop {
         let list = pixels_holding(&source, Purpose::Evaluation, fragments, &|_| {});
-        let extractor = Extractor::for_list(mlp.feature_set(), &list, Some(camera), depth_range).map_err(|e| e.to_string())?;
-        let features = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?.features;
+        let extractor =
+            Extractor::for_list(mlp.feature_set(), &list, Some(camera), depth_range).map_err(|e| e.to_string())?;
+        let features = extractor
+            .list(&list, 0..list.pixels())
+            .map_err(|e| e.to_string())?
+            .features;
         if features.len() >= count * mlp.feature_set().width() {
             break features;
         }
         if fragments > 64 * count as u64 {
-            return Err(format!("of {fragments} random fragments hardly any needs the network; there is nothing to check it on"));
+            return Err(format!(
+                "of {fragments} random fragments hardly any needs the network; there is nothing to check it on"
+            ));
         }
         fragments *= 2;
     };
@@ -82,7 +91,22 @@ pub fn sampled(mlp: &Mlp, count: usize, seed: u64) -> Result<Vec<f32>, String> {
 
 /// `count` rows that no renderer should ever feed, and some will.
 pub fn extreme(width: usize, count: usize) -> CheckRows {
-    let special = [0.0f32, -0.0, 1.0, -1.0, 1e4, -1e4, 1e-10, f32::MIN_POSITIVE, 1e-39, -1e-39, f32::from_bits(1), 0.5, 32.0, 1000.0];
+    let special = [
+        0.0f32,
+        -0.0,
+        1.0,
+        -1.0,
+        1e4,
+        -1e4,
+        1e-10,
+        f32::MIN_POSITIVE,
+        1e-39,
+        -1e-39,
+        f32::from_bits(1),
+        0.5,
+        32.0,
+        1000.0,
+    ];
     let mut rng = stream(SEED, PURPOSE, 0);
     let mut features = Vec::with_capacity(count * width);
     for row in 0..count {
@@ -96,11 +120,16 @@ pub fn extreme(width: usize, count: usize) -> CheckRows {
                 },
                 // Any mixture of them, and magnitudes log-uniform from the denormals to 1e4.
                 _ if row % 2 == 0 => special[rng.random_range(0..special.len())],
-                _ => libm::pow(10.0, rng.random_range(-42.0..4.0)) as f32 * if rng.random::<bool>() { 1.0 } else { -1.0 },
+                _ => {
+                    libm::pow(10.0, rng.random_range(-42.0..4.0)) as f32 * if rng.random::<bool>() { 1.0 } else { -1.0 }
+                }
             });
         }
     }
-    CheckRows { kind: RowKind::Extreme, features }
+    CheckRows {
+        kind: RowKind::Extreme,
+        features,
+    }
 }
 
 #[cfg(test)]
@@ -112,7 +141,11 @@ mod tests {
     fn shapes_and_contents() {
         let rows = in_distribution(&random_mlp(&[4], 1), 1000).unwrap();
         assert_eq!(rows.features.len(), 7000);
-        assert!(rows.features.chunks_exact(7).all(|r| (0.0..=1.0).contains(&r[0]) && r[1] >= 2.0));
+        assert!(
+            rows.features
+                .chunks_exact(7)
+                .all(|r| (0.0..=1.0).contains(&r[0]) && r[1] >= 2.0)
+        );
         let rows = extreme(7, 5000).features;
         assert_eq!(rows.len(), 35_000);
         assert!(rows.iter().all(|x| x.is_finite()));

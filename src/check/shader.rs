@@ -18,7 +18,12 @@ use std::process::{Command, Output, Stdio};
 /// # Errors
 /// The compiler's own words, with the place.
 pub fn parse(format: Format, source: &str) -> Result<Module, String> {
-    let Some(Kind { language: language @ (Language::Wgsl | Language::Glsl), precision, .. }) = format.kind() else {
+    let Some(Kind {
+        language: language @ (Language::Wgsl | Language::Glsl),
+        precision,
+        ..
+    }) = format.kind()
+    else {
         return Err(format!("naga does not read {}", format.name()));
     };
     let module = if language == Language::Wgsl {
@@ -29,8 +34,14 @@ pub fn parse(format: Format, source: &str) -> Result<Module, String> {
             .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
             .map_err(|e| e.emit_to_string(&whole))?
     };
-    let capabilities = if precision == Precision::F16 { Capabilities::SHADER_FLOAT16 } else { Capabilities::empty() };
-    Validator::new(ValidationFlags::all(), capabilities).validate(&module).map_err(|e| format!("naga does not validate it: {}", e.into_inner()))?;
+    let capabilities = if precision == Precision::F16 {
+        Capabilities::SHADER_FLOAT16
+    } else {
+        Capabilities::empty()
+    };
+    Validator::new(ValidationFlags::all(), capabilities)
+        .validate(&module)
+        .map_err(|e| format!("naga does not validate it: {}", e.into_inner()))?;
     Ok(module)
 }
 
@@ -55,7 +66,9 @@ const OTHERS: [&str; 3] = [ROUNDING, FAINT_SWITCH, HIDDEN_SWITCH];
 pub fn constants(module: &Module) -> Result<Constants, String> {
     let interpreter = Interpreter::new(module);
     let names = interpreter.constant_names().filter(|name| name.starts_with(PREFIX));
-    names.map(|name| Ok((name.to_owned(), interpreter.constant(name).map_err(|e| e.to_string())?))).collect()
+    names
+        .map(|name| Ok((name.to_owned(), interpreter.constant(name).map_err(|e| e.to_string())?)))
+        .collect()
 }
 
 /// The numbers in a piece of source, in order; words are names of types or functions.
@@ -65,10 +78,20 @@ pub fn constants(module: &Module) -> Result<Constants, String> {
 pub(super) fn literals(text: &str) -> Result<Vec<f32>, String> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || "_.+-".contains(c);
     // A sign that stands alone, or before a name, is none of a number.
-    let words = text.split(|c: char| !is_word(c)).filter(|w| w.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()));
+    let words = text.split(|c: char| !is_word(c)).filter(|w| {
+        w.trim_start_matches(['+', '-'])
+            .starts_with(|c: char| c.is_ascii_digit())
+    });
     let read = |w: &str| {
-        let value: f32 = w.trim_end_matches(['f', 'h']).parse().map_err(|_| format!("'{w}' is not a number"))?;
-        Ok(if w.ends_with('h') { round_f16_of_f32(value) } else { value })
+        let value: f32 = w
+            .trim_end_matches(['f', 'h'])
+            .parse()
+            .map_err(|_| format!("'{w}' is not a number"))?;
+        Ok(if w.ends_with('h') {
+            round_f16_of_f32(value)
+        } else {
+            value
+        })
     };
     words.map(read).collect()
 }
@@ -81,13 +104,21 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
     let packed = kind.form == Form::Packed;
     let numbers = |name: &str| {
         let found = constants.iter().find(|(n, _)| n == name);
-        found.map(|(_, numbers)| numbers.as_slice()).ok_or_else(|| format!("there is no constant '{name}'"))
+        found
+            .map(|(_, numbers)| numbers.as_slice())
+            .ok_or_else(|| format!("there is no constant '{name}'"))
     };
     let mut expected_names = Vec::new();
     let last = mlp.layers().len() - 1;
     for (index, dense) in mlp.layers().iter().enumerate() {
         let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
-        let kept = |x: f32| if kind.precision == Precision::F16 && index < last { round_f16_of_f32(x) } else { x };
+        let kept = |x: f32| {
+            if kind.precision == Precision::F16 && index < last {
+                round_f16_of_f32(x)
+            } else {
+                x
+            }
+        };
         let weights = numbers(&weights_name)?;
         let folded = packed && dense.inputs() % 4 != 0;
         let biases = if folded { &[] } else { numbers(&biases_name)? };
@@ -106,7 +137,10 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
                 }
                 Ok(())
             }
-            Some(found) => Err(format!("{name}: number {at} is {found:?}, the network has {:?}", kept(expected))),
+            Some(found) => Err(format!(
+                "{name}: number {at} is {found:?}, the network has {:?}",
+                kept(expected)
+            )),
             None => Err(format!("{name} holds {} numbers, number {at} is needed", values.len())),
         };
         for o in 0..dense.outputs() {
@@ -114,24 +148,36 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
                 compare(&weights_name, weights, weight_at(i, o), true, dense.weight(i, o))?;
             }
             match folded {
-                true => compare(&weights_name, weights, weight_at(dense.inputs(), o), true, dense.biases[o])?,
+                true => compare(
+                    &weights_name,
+                    weights,
+                    weight_at(dense.inputs(), o),
+                    true,
+                    dense.biases[o],
+                )?,
                 false => compare(&biases_name, biases, o, false, dense.biases[o])?,
             }
         }
         if let Some(at) = (0..weights.len()).find(|&at| !met[at] && weights[at] != 0.0) {
-            return Err(format!("{weights_name}: number {at} is {:?}, which is no weight of the network", weights[at]));
+            return Err(format!(
+                "{weights_name}: number {at} is {:?}, which is no weight of the network",
+                weights[at]
+            ));
         }
         if let Some(at) = (dense.outputs()..biases.len()).find(|&at| biases[at] != 0.0) {
-            return Err(format!("{biases_name}: number {at} is {:?}, which is no bias of the network", biases[at]));
+            return Err(format!(
+                "{biases_name}: number {at} is {:?}, which is no bias of the network",
+                biases[at]
+            ));
         }
         expected_names.push(weights_name);
         if !folded {
             expected_names.push(biases_name);
         }
     }
-    if let Some((name, _)) =
-        constants.iter().find(|(name, _)| name.starts_with(PREFIX) && !OTHERS.contains(&name.as_str()) && !expected_names.contains(name))
-    {
+    if let Some((name, _)) = constants.iter().find(|(name, _)| {
+        name.starts_with(PREFIX) && !OTHERS.contains(&name.as_str()) && !expected_names.contains(name)
+    }) {
         return Err(format!("constant '{name}' belongs to no layer of the network"));
     }
     Ok(())
@@ -144,19 +190,35 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
 pub fn literal_indices(module: &Module) -> Result<(), String> {
     for (_, function) in module.functions.iter() {
         let literal = |e: &Expression| match e {
-            Expression::Access { index, .. } => matches!(function.expressions[*index], Expression::Literal(_) | Expression::Constant(_)),
+            Expression::Access { index, .. } => matches!(
+                function.expressions[*index],
+                Expression::Literal(_) | Expression::Constant(_)
+            ),
             _ => true,
         };
         if function.expressions.iter().any(|(_, e)| !literal(e)) {
-            return Err(format!("function '{}' has a run-time index", function.name.as_deref().unwrap_or("?")));
+            return Err(format!(
+                "function '{}' has a run-time index",
+                function.name.as_deref().unwrap_or("?")
+            ));
         }
     }
     Ok(())
 }
 
 /// Runs a compiler with a source on its standard input; none where it is not installed.
-pub(super) fn run_on(program: impl AsRef<std::ffi::OsStr>, arguments: &[&std::ffi::OsStr], input: &[u8]) -> Option<std::io::Result<Output>> {
-    let mut child = Command::new(program).args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().ok()?;
+pub(super) fn run_on(
+    program: impl AsRef<std::ffi::OsStr>,
+    arguments: &[&std::ffi::OsStr],
+    input: &[u8],
+) -> Option<std::io::Result<Output>> {
+    let mut child = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .ok()?;
     let feed = child.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(input));
     Some(match (feed, child.wait_with_output()) {
         // A compiler that stops reading has said why.
@@ -171,8 +233,14 @@ pub(super) fn verdict(program: &str, output: std::io::Result<Output>) -> Result<
         Err(error) => Err(format!("{program}: {error}")),
         Ok(output) if output.status.success() => Ok(()),
         Ok(output) => {
-            let said = [output.stdout, output.stderr].map(|t| String::from_utf8_lossy(&t).trim().to_owned()).join("\n");
-            Err(if said.trim().is_empty() { format!("{program} ends with {}", output.status) } else { said.trim().to_owned() })
+            let said = [output.stdout, output.stderr]
+                .map(|t| String::from_utf8_lossy(&t).trim().to_owned())
+                .join("\n");
+            Err(if said.trim().is_empty() {
+                format!("{program} ends with {}", output.status)
+            } else {
+                said.trim().to_owned()
+            })
         }
     }
 }
@@ -223,7 +291,9 @@ mod tests {
     #[test]
     fn every_form_of_every_size_computes_the_reference() {
         let mut rng = crate::numeric::rng::stream(3, 0, 0);
-        let rows: Vec<f32> = (0..7 * 200).map(|_| rand::RngExt::random_range(&mut rng, -2.0..2.0)).collect();
+        let rows: Vec<f32> = (0..7 * 200)
+            .map(|_| rand::RngExt::random_range(&mut rng, -2.0..2.0))
+            .collect();
         for hidden in [&[][..], &[1], &[8], &[5], &[32, 16], &[6, 3], &[4, 7, 2]] {
             let mlp = random_mlp(hidden, 9);
             let reference = mlp.forward_batch::<f32>(&rows);
@@ -236,7 +306,9 @@ mod tests {
                 for (o, r) in out.iter().zip(&reference) {
                     match format {
                         // The plain form adds in the reference's order: the same bits.
-                        Format::WgslPlain | Format::GlslPlain => assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}"),
+                        Format::WgslPlain | Format::GlslPlain => {
+                            assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}")
+                        }
                         _ => assert!((o - r).abs() < 2e-6, "{format:?} {hidden:?}: {o} {r}"),
                     }
                 }
@@ -251,17 +323,28 @@ mod tests {
     #[test]
     fn halves_of_every_size_compute_our_own_pass() {
         let mut rng = stream(3, 1, 0);
-        let rows: Vec<f32> = (0..7 * 300).map(|_| rng.random_range(-2.0..2.0)).chain([1e4, -1e4, 70.0, 0.0, 1e-39, -3e-6, 0.1]).collect();
+        let rows: Vec<f32> = (0..7 * 300)
+            .map(|_| rng.random_range(-2.0..2.0))
+            .chain([1e4, -1e4, 70.0, 0.0, 1e-39, -3e-6, 0.1])
+            .collect();
         for hidden in [&[][..], &[1], &[8], &[5], &[32, 16], &[6, 3], &[4, 7, 2]] {
             let mlp = random_mlp(hidden, 9);
             let ours = super::super::half::forward_batch(&mlp, half_limit(&mlp).unwrap(), &rows);
             for format in HALVES {
-                let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
+                let module =
+                    parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
                 weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
                 literal_indices(&module).unwrap();
                 let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
-                let worst = out.iter().zip(&ours).map(|(a, b)| if near(*a, *b, 9.0) { (a - b).abs() } else { 9.0 }).fold(0.0, f32::max);
-                assert!(worst <= if format == Format::WgslPlainF16 { 0.0 } else { 2e-2 }, "{format:?} {hidden:?}: {worst}");
+                let worst = out
+                    .iter()
+                    .zip(&ours)
+                    .map(|(a, b)| if near(*a, *b, 9.0) { (a - b).abs() } else { 9.0 })
+                    .fold(0.0, f32::max);
+                assert!(
+                    worst <= if format == Format::WgslPlainF16 { 0.0 } else { 2e-2 },
+                    "{format:?} {hidden:?}: {worst}"
+                );
                 // What asks for f16 is not taken for f32, and does not compute it.
                 assert!(parse(Format::Wgsl, &source(&mlp, format)).is_err() != hidden.is_empty());
                 let single = mlp.forward_batch::<f32>(&rows);
@@ -277,7 +360,11 @@ mod tests {
         for (weight, bias) in text {
             for value in [weight, bias] {
                 for format in SHADERS {
-                    let changed = source(&mlp, format).replacen(&format!("{value:?}"), &format!("{:?}", f32::from_bits(value.to_bits() ^ 1)), 1);
+                    let changed = source(&mlp, format).replacen(
+                        &format!("{value:?}"),
+                        &format!("{:?}", f32::from_bits(value.to_bits() ^ 1)),
+                        1,
+                    );
                     let module = parse(format, &changed).unwrap();
                     let message = weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap_err();
                     assert!(message.contains("the network has"), "{message}");
@@ -291,8 +378,15 @@ mod tests {
         let text = source(&random_mlp(&[4], 1), Format::Wgsl);
         assert!(parse(Format::Wgsl, &text[..text.len() / 2]).is_err());
         assert!(parse(Format::Glsl, &text).is_err());
-        let indexed = parse(Format::Wgsl, "const W = array<f32, 2>(1.0, 2.0); fn f(i: u32) -> f32 { return W[i]; }").unwrap();
-        assert_eq!(literal_indices(&indexed), Err("function 'f' has a run-time index".to_owned()));
+        let indexed = parse(
+            Format::Wgsl,
+            "const W = array<f32, 2>(1.0, 2.0); fn f(i: u32) -> f32 { return W[i]; }",
+        )
+        .unwrap();
+        assert_eq!(
+            literal_indices(&indexed),
+            Err("function 'f' has a run-time index".to_owned())
+        );
     }
 
     /// DWB22's features: depths in the range, at its ends, outside, and where it is empty; and the network behind them.
@@ -302,13 +396,26 @@ mod tests {
         use crate::model::{Dense, Provenance};
         use crate::pixel::ViewZ;
         let layer = Dense::new(3, 1, vec![-2.0, 0.25, 0.125], vec![0.5]).unwrap();
-        let mlp = Mlp::new("deep", FeatureSet::DeepWeightedBlended, vec![layer], Provenance::default()).unwrap();
+        let mlp = Mlp::new(
+            "deep",
+            FeatureSet::DeepWeightedBlended,
+            vec![layer],
+            Provenance::default(),
+        )
+        .unwrap();
         for format in SHADERS {
             let text = source(&mlp, format);
             let module = parse(format, &text).unwrap();
             weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
             let interpreter = Interpreter::new(&module);
-            for (v, v0, v1) in [(3.0, 2.0, 6.0), (2.0, 2.0, 6.0), (6.0, 2.0, 6.0), (1.0, 2.0, 6.0), (9.0, 2.0, 6.0), (2.0, 2.0, 2.0)] {
+            for (v, v0, v1) in [
+                (3.0, 2.0, 6.0),
+                (2.0, 2.0, 6.0),
+                (6.0, 2.0, 6.0),
+                (1.0, 2.0, 6.0),
+                (9.0, 2.0, 6.0),
+                (2.0, 2.0, 2.0),
+            ] {
                 let arguments = [v, v0, v1, 1.5, 4.0].map(|x| Value::<1>::Uniform(x as f32)).to_vec();
                 let found = interpreter.call("nmt_features", arguments).unwrap().flatten().unwrap();
                 let depth = LinearRange::new(ViewZ(v0), ViewZ(v1)).unwrap().relative(ViewZ(v)) as f32;
@@ -335,13 +442,20 @@ mod tests {
             let module = parse(format, &source(&mlp, format)).unwrap();
             let interpreter = Interpreter::new(&module);
             let number = |v: f64| Value::<1>::Uniform(v as f32);
-            let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+            let one =
+                |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
             for p in 0..list.pixels() {
                 let pixel: Pixel<'_> = list.pixel(p);
                 let mut expected = vec![0.0; 7 * pixel.len()];
                 paper::extract(pixel, planes, &mut expected).unwrap();
-                let w: Vec<f64> = pixel.view_z.iter().map(|&v| planes.window(ViewZ(v.into())).unwrap().0).collect();
-                let (lo, hi) = w.iter().fold((f64::INFINITY, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
+                let w: Vec<f64> = pixel
+                    .view_z
+                    .iter()
+                    .map(|&v| planes.window(ViewZ(v.into())).unwrap().0)
+                    .collect();
+                let (lo, hi) = w
+                    .iter()
+                    .fold((f64::INFINITY, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
                 // Pass 1 in the shader's own functions.
                 let mut b = [0.0f32; 5];
                 for (&w, &alpha) in w.iter().zip(pixel.alpha) {
@@ -354,18 +468,34 @@ mod tests {
                 for (row, &w) in expected.chunks_exact(7).zip(&w) {
                     let call = |lo: f64| {
                         let head = [w, lo, hi, pixel.len() as f64].map(number);
-                        one("nmt_features", head.into_iter().chain([Value::Uniform(b[0]), Value::numbers(&b[1..])]).collect())
+                        one(
+                            "nmt_features",
+                            head.into_iter()
+                                .chain([Value::Uniform(b[0]), Value::numbers(&b[1..])])
+                                .collect(),
+                        )
                     };
                     let off = |found: Vec<f32>| {
                         let scale = |k: usize, e: f32| if k < 2 { 3e-7 + 1e-6 * e.abs() } else { 1e-6 * row[2] };
-                        found.iter().zip(row).enumerate().any(|(k, (f, &e))| (f - e).is_nan() || (f - e).abs() > scale(k, e))
+                        found
+                            .iter()
+                            .zip(row)
+                            .enumerate()
+                            .any(|(k, (f, &e))| (f - e).is_nan() || (f - e).abs() > scale(k, e))
                     };
                     assert!(!off(call(lo)), "{format:?}: {:?} against {row:?}", call(lo));
                     assert!(row[0] >= 1.0 || off(call(0.0)));
                 }
             }
             // One fragment, or all tied: d = 0.
-            let tied = one("nmt_features", [0.5, 0.5, 0.5, 1.0, 1.0].map(number).into_iter().chain([Value::numbers(&[0.0; 4])]).collect());
+            let tied = one(
+                "nmt_features",
+                [0.5, 0.5, 0.5, 1.0, 1.0]
+                    .map(number)
+                    .into_iter()
+                    .chain([Value::numbers(&[0.0; 4])])
+                    .collect(),
+            );
             assert_eq!(tied[0], 0.0);
         }
     }
@@ -379,7 +509,9 @@ mod tests {
             for format in [Format::Wgsl, Format::Glsl] {
                 let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
                 let interpreter = Interpreter::new(&module);
-                let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+                let one = |name: &str, arguments: Vec<Value<1>>| {
+                    interpreter.call(name, arguments).unwrap().flatten().unwrap()
+                };
                 let mut rng = stream(5, 91, K as u64);
                 let (mut known, mut asked, mut controls) = (0, 0, 0);
                 for round in 0..300 {
@@ -389,25 +521,53 @@ mod tests {
                     let mut sums = PixelSums::<f32, K>::default();
                     let seen: Vec<Seen<f32>> = (0..n)
                         .map(|i| {
-                            let z = one("nmt_moment_depth", vec![Value::Uniform(v[i]), Value::Uniform(1.0), Value::Uniform(10.0)])[0];
-                            let exact = LogWarp::new(ViewZ(1.0), ViewZ(10.0)).unwrap().moment(ViewZ(v[i].into())).0;
+                            let z = one(
+                                "nmt_moment_depth",
+                                vec![Value::Uniform(v[i]), Value::Uniform(1.0), Value::Uniform(10.0)],
+                            )[0];
+                            let exact = LogWarp::new(ViewZ(1.0), ViewZ(10.0))
+                                .unwrap()
+                                .moment(ViewZ(v[i].into()))
+                                .0;
                             assert!((f64::from(z) - exact).abs() < 1e-6);
                             let absorbance = one("nmt_absorbance", vec![Value::Uniform(alpha[i])])[0];
-                            Seen { view_z: v[i], z, absorbance }
+                            Seen {
+                                view_z: v[i],
+                                z,
+                                absorbance,
+                            }
                         })
                         .collect();
                     for s in &seen {
                         sums.add(*s);
                         let moments = one("nmt_moments", vec![Value::Uniform(s.z), Value::Uniform(s.absorbance)]);
                         assert_eq!(moments.len(), K);
-                        assert!(moments.iter().enumerate().all(|(k, m)| (m - s.absorbance * s.z.powi(k as i32 + 1)).abs() <= 1e-6 * s.absorbance));
+                        assert!(
+                            moments
+                                .iter()
+                                .enumerate()
+                                .all(|(k, m)| (m - s.absorbance * s.z.powi(k as i32 + 1)).abs() <= 1e-6 * s.absorbance)
+                        );
                     }
                     let end = |at: f32| seen.iter().find(|s| s.view_z == at).unwrap().z;
                     let ends = [end(sums.nearest), end(sums.farthest)];
                     for s in &seen {
                         let arguments = |ends: [f32; 2]| -> Vec<Value<1>> {
-                            let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
-                            head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect()
+                            let head = [
+                                s.view_z,
+                                s.z,
+                                s.absorbance,
+                                sums.nearest,
+                                sums.farthest,
+                                ends[0],
+                                ends[1],
+                                n as f32,
+                                sums.b0,
+                            ];
+                            head.into_iter()
+                                .map(Value::Uniform)
+                                .chain([Value::numbers(&sums.b)])
+                                .collect()
                         };
                         let found = one("nmt_recentred", arguments(ends));
                         let answer = one("nmt_fragment_transmittance", arguments(ends))[0];
@@ -415,10 +575,17 @@ mod tests {
                             Known::Transmittance(t) => !near(found[set.width()], t, 2e-6),
                             Known::Features(first, measure) => {
                                 let expected = first.iter().chain(&measure);
-                                found[set.width()] >= 0.0 || expected.enumerate().any(|(k, &e)| !near(found[k], e, if k < 5 { 1e-5 } else { 1e-2 }))
+                                found[set.width()] >= 0.0
+                                    || expected
+                                        .enumerate()
+                                        .any(|(k, &e)| !near(found[k], e, if k < 5 { 1e-5 } else { 1e-2 }))
                             }
                         };
-                        assert!(!off(&found), "{format:?} K = {K} n = {n}: {found:?} for {:?}", sums.look(*s, ends));
+                        assert!(
+                            !off(&found),
+                            "{format:?} K = {K} n = {n}: {found:?} for {:?}",
+                            sums.look(*s, ends)
+                        );
                         match sums.look(*s, ends) {
                             Known::Transmittance(t) => {
                                 known += 1;
@@ -433,7 +600,10 @@ mod tests {
                         }
                     }
                 }
-                assert!(known > 300 && asked > 300 && controls > asked / 2, "{known} known, {asked} asked, {controls} controls failed");
+                assert!(
+                    known > 300 && asked > 300 && controls > asked / 2,
+                    "{known} known, {asked} asked, {controls} controls failed"
+                );
             }
         }
         compare::<4>(FeatureSet::Recentred);
@@ -450,7 +620,9 @@ mod tests {
             for format in [Format::Wgsl, Format::GlslPlain] {
                 let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
                 let interpreter = Interpreter::new(&module);
-                let one = |name: &str, arguments: Vec<Value<1>>| interpreter.call(name, arguments).unwrap().flatten().unwrap();
+                let one = |name: &str, arguments: Vec<Value<1>>| {
+                    interpreter.call(name, arguments).unwrap().flatten().unwrap()
+                };
                 let mut rng = stream(5, 93, K as u64);
                 // Answers by kind: nearest or hardly any others, farthest, three, four, the network.
                 let (mut kinds, mut controls) = ([0; 5], 0);
@@ -461,7 +633,11 @@ mod tests {
                     let mut pixel: Vec<Seen<f32>> = (0..n)
                         .map(|_| {
                             let z = rng.random_range(-half..half) + 0.3;
-                            Seen { view_z: z.exp(), z, absorbance: -(1.0f32 - rng.random_range(least..0.9999)).ln() }
+                            Seen {
+                                view_z: z.exp(),
+                                z,
+                                absorbance: -(1.0f32 - rng.random_range(least..0.9999)).ln(),
+                            }
                         })
                         .collect();
                     if round % 5 == 0 {
@@ -472,8 +648,22 @@ mod tests {
                     let end = |at: f32| pixel.iter().find(|s| s.view_z == at).unwrap().z;
                     let ends = [end(sums.nearest), end(sums.farthest)];
                     for s in &pixel {
-                        let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
-                        let arguments: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
+                        let head = [
+                            s.view_z,
+                            s.z,
+                            s.absorbance,
+                            sums.nearest,
+                            sums.farthest,
+                            ends[0],
+                            ends[1],
+                            n as f32,
+                            sums.b0,
+                        ];
+                        let arguments: Vec<Value<1>> = head
+                            .into_iter()
+                            .map(Value::Uniform)
+                            .chain([Value::numbers(&sums.b)])
+                            .collect();
                         let whole = one("nmt_recentred", arguments.clone());
                         let (features, known) = (&whole[..set.width()], whole[set.width()]);
                         let network = one(ENTRY, vec![Value::numbers(features)])[0];
@@ -481,7 +671,10 @@ mod tests {
                         // The one takes the other absorbance from its logarithm, the other as it is.
                         let expected = if known >= 0.0 { known } else { network };
                         let bar = if known >= 0.0 { 0.0 } else { 1e-6 };
-                        assert!(near(answer, expected, bar), "{format:?} K = {K} n = {n}: {answer} for {expected}");
+                        assert!(
+                            near(answer, expected, bar),
+                            "{format:?} K = {K} n = {n}: {answer} for {expected}"
+                        );
                         controls += usize::from(known >= 0.0 && answer != network);
                         kinds[match () {
                             () if known < 0.0 => 4,
@@ -492,7 +685,10 @@ mod tests {
                         .min(4)] += 1;
                     }
                 }
-                assert!(kinds.iter().all(|&k| k > 20) && controls > 300, "{kinds:?}, {controls} controls");
+                assert!(
+                    kinds.iter().all(|&k| k > 20) && controls > 300,
+                    "{kinds:?}, {controls} controls"
+                );
             }
         }
         compare::<4>(FeatureSet::Recentred);
@@ -516,15 +712,33 @@ mod tests {
                 let text = source(&mlp, format);
                 let off = |name: &str, value: f32| {
                     let number = format!("{value:?}");
-                    let at = text.find(&format!("{name} = {number}")).or_else(|| text.find(&format!("{name}: f32 = {number}"))).unwrap();
+                    let at = text
+                        .find(&format!("{name} = {number}"))
+                        .or_else(|| text.find(&format!("{name}: f32 = {number}")))
+                        .unwrap();
                     let end = at + text[at..].find(';').unwrap();
-                    format!("{}{}{}", &text[..at], text[at..end].replace(&number, "0.0"), &text[end..])
+                    format!(
+                        "{}{}{}",
+                        &text[..at],
+                        text[at..end].replace(&number, "0.0"),
+                        &text[end..]
+                    )
                 };
                 let halved = text.replace("1.00001 * min(share1", "0.25 * min(share1");
                 assert_ne!(halved, text);
-                let modules = [text.clone(), off(FAINT_SWITCH, FAINT), off(HIDDEN_SWITCH, HIDDEN), halved].map(|text| parse(format, &text).unwrap());
+                let modules = [
+                    text.clone(),
+                    off(FAINT_SWITCH, FAINT),
+                    off(HIDDEN_SWITCH, HIDDEN),
+                    halved,
+                ]
+                .map(|text| parse(format, &text).unwrap());
                 let one = |module: usize, name: &str, arguments: Vec<Value<1>>| {
-                    Interpreter::new(&modules[module]).call(name, arguments).unwrap().flatten().unwrap()[0]
+                    Interpreter::new(&modules[module])
+                        .call(name, arguments)
+                        .unwrap()
+                        .flatten()
+                        .unwrap()[0]
                 };
                 let (mut weighed, mut hidden, mut faint, mut plain, mut controls) = (0, 0, 0, 0, 0);
                 for p in 0..list.pixels() {
@@ -534,7 +748,11 @@ mod tests {
                         .view_z
                         .iter()
                         .zip(pixel.alpha)
-                        .map(|(&view_z, &alpha)| Seen { view_z, z: recentred::moment_depth(view_z, range), absorbance: recentred::absorbance(alpha) })
+                        .map(|(&view_z, &alpha)| Seen {
+                            view_z,
+                            z: recentred::moment_depth(view_z, range),
+                            absorbance: recentred::absorbance(alpha),
+                        })
                         .collect();
                     let mut sums = PixelSums::<f32, K>::default();
                     seen.iter().for_each(|&s| sums.add(s));
@@ -542,9 +760,16 @@ mod tests {
                         continue;
                     }
                     let ends = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f32>(v, range));
-                    let from = one(0, "nmt_first_hidden_depth", [sums.b0, sums.b[0], sums.b[1]].map(Value::Uniform).to_vec());
+                    let from = one(
+                        0,
+                        "nmt_first_hidden_depth",
+                        [sums.b0, sums.b[0], sums.b[1]].map(Value::Uniform).to_vec(),
+                    );
                     let twin = first_hidden_depth(sums.b0, sums.b[0], sums.b[1]);
-                    assert!(near(from, twin, 1e-5) || (from > 1e38 && twin > 1e38), "{from} for {twin}");
+                    assert!(
+                        near(from, twin, 1e-5) || (from > 1e38 && twin > 1e38),
+                        "{from} for {twin}"
+                    );
                     let exact: Vec<[f64; 2]> = seen
                         .iter()
                         .map(|s| {
@@ -559,10 +784,29 @@ mod tests {
                         let others32 = sums.b0 - s.absorbance;
                         let end = s.view_z == sums.nearest || s.view_z == sums.farthest || others32 <= 1e-6 * sums.b0;
                         let head = [s.z, s.absorbance, ends[0], ends[1], n as f32, sums.b0];
-                        let weighing: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
-                        let head = [s.view_z, s.z, s.absorbance, sums.nearest, sums.farthest, ends[0], ends[1], n as f32, sums.b0];
-                        let looking: Vec<Value<1>> = head.into_iter().map(Value::Uniform).chain([Value::numbers(&sums.b)]).collect();
-                        let answers = [0, 1, 2].map(|module| one(module, "nmt_visible_transmittance", looking.clone()).to_bits());
+                        let weighing: Vec<Value<1>> = head
+                            .into_iter()
+                            .map(Value::Uniform)
+                            .chain([Value::numbers(&sums.b)])
+                            .collect();
+                        let head = [
+                            s.view_z,
+                            s.z,
+                            s.absorbance,
+                            sums.nearest,
+                            sums.farthest,
+                            ends[0],
+                            ends[1],
+                            n as f32,
+                            sums.b0,
+                        ];
+                        let looking: Vec<Value<1>> = head
+                            .into_iter()
+                            .map(Value::Uniform)
+                            .chain([Value::numbers(&sums.b)])
+                            .collect();
+                        let answers =
+                            [0, 1, 2].map(|module| one(module, "nmt_visible_transmittance", looking.clone()).to_bits());
                         let whole = one(0, "nmt_fragment_transmittance", looking).to_bits();
                         let is_faint = !end && sums.b0 <= FAINT;
                         let mut is_hidden = false;
@@ -574,18 +818,28 @@ mod tests {
                             let front: f64 = (0..n).filter(|&j| !behind(j)).map(|j| exact[j][1]).sum();
                             let absorbed: f64 = (0..n).filter(|&j| behind(j)).map(|j| exact[j][1]).sum();
                             let least = (-front).exp() * absorbed.min(n as f64 - 2.0);
-                            assert!(f64::from(weight) >= least * (1.0 - 1e-6) - 1e-37, "{weight} for {least}");
+                            assert!(
+                                f64::from(weight) >= least * (1.0 - 1e-6) - 1e-37,
+                                "{weight} for {least}"
+                            );
                             // A depth with nothing of its own, for all that lies from there on.
                             let mut depth = weighing.clone();
                             depth[1] = Value::Uniform(0.0);
                             let depth = one(0, "nmt_hidden_weight", depth);
-                            assert!(f64::from(depth) >= least * (1.0 - 1e-6) - 1e-37, "{depth} for {least} from a depth on");
+                            assert!(
+                                f64::from(depth) >= least * (1.0 - 1e-6) - 1e-37,
+                                "{depth} for {least} from a depth on"
+                            );
                             weighed += 1;
                             controls += usize::from(f64::from(one(3, "nmt_hidden_weight", weighing)) < least);
                             let others: f64 = (0..n).filter(|&j| j != i).map(|j| exact[j][1]).sum();
                             let place = |z: f64| ((z - c) / h).clamp(-1.0, 1.0);
                             let m: [f64; 4] = std::array::from_fn(|k| {
-                                (0..n).filter(|&j| j != i).map(|j| exact[j][1] * place(exact[j][0]).powi(k as i32 + 1)).sum::<f64>() / others
+                                (0..n)
+                                    .filter(|&j| j != i)
+                                    .map(|j| exact[j][1] * place(exact[j][0]).powi(k as i32 + 1))
+                                    .sum::<f64>()
+                                    / others
                             });
                             let noise = Noise::<f32>::of(n as u32, sums.b0, others32, c as f32, h as f32);
                             let noise = Noise {
@@ -594,7 +848,13 @@ mod tests {
                                 position: 2.0 * f64::from(noise.position),
                                 depth: 2.0 * f64::from(noise.depth),
                             };
-                            let twin = hidden_weight(others, exact[i][1], n as u32, most_behind(place(exact[i][0]), m, &noise), &noise);
+                            let twin = hidden_weight(
+                                others,
+                                exact[i][1],
+                                n as u32,
+                                most_behind(place(exact[i][0]), m, &noise),
+                                &noise,
+                            );
                             assert!(is_hidden || twin > 0.9 * f64::from(HIDDEN), "{weight} for {twin}");
                         }
                         // Exponentials are a few ulp apart; what the network answers is the same call.
@@ -608,14 +868,23 @@ mod tests {
                             () => [None; 3],
                         };
                         let right = answers.into_iter().zip(expected).all(|(found, depth)| is(found, depth));
-                        assert!(right, "{format:?}: {:?} for {expected:?}, faint {is_faint}, hidden {is_hidden}", answers.map(f32::from_bits));
+                        assert!(
+                            right,
+                            "{format:?}: {:?} for {expected:?}, faint {is_faint}, hidden {is_hidden}",
+                            answers.map(f32::from_bits)
+                        );
                         hidden += usize::from(is_hidden);
                         faint += usize::from(is_faint);
                         plain += usize::from(!is_faint && !is_hidden);
                     }
                 }
-                println!("{format:?} K = {K}: {weighed} weighed, {hidden} hidden, {faint} faint, {plain} plain, {controls} controls");
-                assert!(weighed > 50 && hidden > 20 && faint > 20 && plain > 100 && controls > 2, "{weighed} {hidden} {faint} {plain} {controls}");
+                println!(
+                    "{format:?} K = {K}: {weighed} weighed, {hidden} hidden, {faint} faint, {plain} plain, {controls} controls"
+                );
+                assert!(
+                    weighed > 50 && hidden > 20 && faint > 20 && plain > 100 && controls > 2,
+                    "{weighed} {hidden} {faint} {plain} {controls}"
+                );
             }
         }
         compare::<4>(FeatureSet::Recentred, 700);
@@ -631,6 +900,9 @@ mod tests {
     fn random_layers(width: usize) -> Vec<Dense> {
         let mut rng = stream(6, 91, 0);
         let mut numbers = |n: usize| (0..n).map(|_| rng.random_range(-0.7f32..0.7)).collect::<Vec<_>>();
-        vec![Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(), Dense::new(6, 1, numbers(6), numbers(1)).unwrap()]
+        vec![
+            Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(),
+            Dense::new(6, 1, numbers(6), numbers(1)).unwrap(),
+        ]
     }
 }

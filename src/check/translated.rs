@@ -10,10 +10,17 @@ use std::ffi::OsStr;
 /// # Errors
 /// Names the constant that is not made of literals.
 pub fn metal_constants(text: &str) -> Result<Constants, String> {
-    let declarations = text.lines().filter_map(|line| line.strip_prefix("constant ")?.split_once(" = "));
+    let declarations = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("constant ")?.split_once(" = "));
     declarations
         .map(|(head, value)| {
-            let name = head.split_whitespace().last().unwrap_or_default().trim_end_matches('_').to_owned();
+            let name = head
+                .split_whitespace()
+                .last()
+                .unwrap_or_default()
+                .trim_end_matches('_')
+                .to_owned();
             Ok((name.clone(), literals(value).map_err(|e| format!("{name}: {e}"))?))
         })
         .collect()
@@ -24,12 +31,22 @@ pub fn metal_constants(text: &str) -> Result<Constants, String> {
 /// # Errors
 /// Names the constant that is not used as it stands.
 pub fn metal_uses(text: &str, constants: &Constants, entry: &str) -> Result<(), String> {
-    let body = text.split(&format!("float {entry}(")).nth(1).and_then(|t| t.split("\n}").next()).ok_or_else(|| format!("there is no {entry}"))?;
+    let body = text
+        .split(&format!("float {entry}("))
+        .nth(1)
+        .and_then(|t| t.split("\n}").next())
+        .ok_or_else(|| format!("there is no {entry}"))?;
     let mut found = literals(body)?.into_iter().filter(|x| *x != 0.0);
     for (name, numbers) in constants {
         // Biases that are added between blocks of weights are found by name or not at all: what is in order are weights.
         let named = body.contains(&format!("{name}_"));
-        if name.starts_with("NMT_W") && !named && !numbers.iter().filter(|x| **x != 0.0).all(|x| found.any(|f| f.to_bits() == x.to_bits())) {
+        if name.starts_with("NMT_W")
+            && !named
+            && !numbers
+                .iter()
+                .filter(|x| **x != 0.0)
+                .all(|x| found.any(|f| f.to_bits() == x.to_bits()))
+        {
             return Err(format!("{entry} does not use {name} as it stands"));
         }
     }
@@ -61,7 +78,11 @@ pub fn spirv_constants(bytes: &[u8]) -> Result<Constants, String> {
     for (op, operands) in &instructions {
         match (*op, operands.as_slice()) {
             (NAME, [id, text @ ..]) => {
-                let text: Vec<u8> = text.iter().flat_map(|w| w.to_le_bytes()).take_while(|&b| b != 0).collect();
+                let text: Vec<u8> = text
+                    .iter()
+                    .flat_map(|w| w.to_le_bytes())
+                    .take_while(|&b| b != 0)
+                    .collect();
                 names.push((*id, String::from_utf8_lossy(&text).into_owned()));
             }
             (TYPE_FLOAT, [id, width, ..]) => {
@@ -82,7 +103,14 @@ pub fn spirv_constants(bytes: &[u8]) -> Result<Constants, String> {
         }
     }
     let weights = names.into_iter().filter(|(_, name)| name.starts_with("NMT_"));
-    weights.map(|(id, name)| numbers.remove(&id).map(|n| (name.clone(), n)).ok_or(format!("'{name}' is not made of numbers"))).collect()
+    weights
+        .map(|(id, name)| {
+            numbers
+                .remove(&id)
+                .map(|n| (name.clone(), n))
+                .ok_or(format!("'{name}' is not made of numbers"))
+        })
+        .collect()
 }
 
 /// Runs spirv-val on a module; none where the program is not installed.
@@ -114,17 +142,35 @@ mod tests {
     fn halves_of_all_bits() {
         for bits in 0..0x7c00u32 {
             let x = half_from_bits(bits);
-            assert!(round_f16_of_f32(x) == x && (bits == 0 || x > half_from_bits(bits - 1)) && half_from_bits(bits | 0x8000) == -x);
+            assert!(
+                round_f16_of_f32(x) == x
+                    && (bits == 0 || x > half_from_bits(bits - 1))
+                    && half_from_bits(bits | 0x8000) == -x
+            );
         }
-        assert_eq!((half_from_bits(0x3c00), half_from_bits(0x0001), half_from_bits(0x7bff)), (1.0, 5.9604645e-8, 65504.0));
+        assert_eq!(
+            (half_from_bits(0x3c00), half_from_bits(0x0001), half_from_bits(0x7bff)),
+            (1.0, 5.9604645e-8, 65504.0)
+        );
     }
 
     /// Weights of both precisions are read back from both languages. Controls: another network's are not.
     #[test]
     fn weights_are_read_back() {
         let sets = [FeatureSet::Paper, FeatureSet::Recentred];
-        for (hidden, set) in [&[][..], &[5], &[8, 4], &[32, 16]].into_iter().flat_map(|hidden| sets.map(|set| (hidden, set))) {
-            let random = |seed| Mlp::new("random", set, random_mlp(hidden, seed).layers().to_vec(), Provenance::default()).unwrap();
+        for (hidden, set) in [&[][..], &[5], &[8, 4], &[32, 16]]
+            .into_iter()
+            .flat_map(|hidden| sets.map(|set| (hidden, set)))
+        {
+            let random = |seed| {
+                Mlp::new(
+                    "random",
+                    set,
+                    random_mlp(hidden, seed).layers().to_vec(),
+                    Provenance::default(),
+                )
+                .unwrap()
+            };
             let (mlp, other, entry) = (random(1), random(2), network_function(set));
             for format in [Format::Metal, Format::MetalF16, Format::Spirv, Format::SpirvF16] {
                 let bytes = encode(&mlp, format).unwrap();
@@ -165,12 +211,18 @@ mod tests {
             let mut rng = stream(9, 97, set.width() as u64);
             let mut numbers = |n: usize| (0..n).map(|_| rng.random_range(-0.7f32..0.7)).collect::<Vec<_>>();
             let width = set.width();
-            let layers = vec![Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(), Dense::new(6, 1, numbers(6), numbers(1)).unwrap()];
+            let layers = vec![
+                Dense::new(width, 6, numbers(6 * width), numbers(6)).unwrap(),
+                Dense::new(6, 1, numbers(6), numbers(1)).unwrap(),
+            ];
             let mlp = Mlp::new("m", set, layers, Provenance::default()).unwrap();
             let text = String::from_utf8(encode(&mlp, Format::Wgsl).unwrap()).unwrap();
             let module = parse(Format::Wgsl, &text).unwrap();
             let interpreter = Interpreter::new(&module);
-            let known = matches!(set, FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8);
+            let known = matches!(
+                set,
+                FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
+            );
             let scalars = if known { 9 } else { 5 };
             let (n, k) = (500, set.moments());
             // Fragments between near and far, in pixels of three: what is known is smooth in every argument.
@@ -178,11 +230,23 @@ mod tests {
                 let [near, far] = [rng.random_range(-0.8f32..-0.1), rng.random_range(0.1f32..0.8)];
                 let z = rng.random_range(near..far);
                 let head = if known {
-                    vec![z.exp(), z, rng.random_range(0.1..1.0), near.exp(), far.exp(), near, far, 3.0, rng.random_range(2.0..4.0)]
+                    vec![
+                        z.exp(),
+                        z,
+                        rng.random_range(0.1..1.0),
+                        near.exp(),
+                        far.exp(),
+                        near,
+                        far,
+                        3.0,
+                        rng.random_range(2.0..4.0),
+                    ]
                 } else {
                     (0..5).map(|_| rng.random_range(0.1f32..0.9)).collect()
                 };
-                head.into_iter().chain((0..k).map(|_| rng.random_range(-0.5f32..0.5))).collect::<Vec<f32>>()
+                head.into_iter()
+                    .chain((0..k).map(|_| rng.random_range(-0.5f32..0.5)))
+                    .collect::<Vec<f32>>()
             };
             let fragments: Vec<Vec<f32>> = (0..n).map(fragment).collect();
             let expected: Vec<f32> = fragments
@@ -201,15 +265,38 @@ mod tests {
                 .collect();
             let rows: Vec<f32> = (0..n * width).map(|_| rng.random_range(-1.0f32..1.0)).collect();
             let source = with_entry_points(&text, set);
-            for (entry, input, expected) in [(ROWS, rows.clone(), mlp.forward_batch::<f32>(&rows)), (FRAGMENTS, fragments.concat(), expected)] {
+            for (entry, input, expected) in [
+                (ROWS, rows.clone(), mlp.forward_batch::<f32>(&rows)),
+                (FRAGMENTS, fragments.concat(), expected),
+            ] {
                 let pipeline = gpu.compute(entry, &source, entry).unwrap();
-                let (input, output) = (gpu.upload("rows", &input).unwrap(), gpu.zeros("answers", 4 * n as u64).unwrap());
-                gpu.run(entry, &[Dispatch { pipeline: &pipeline, buffers: &[&input, &output], groups: groups(n as u64) }]).unwrap();
+                let (input, output) = (
+                    gpu.upload("rows", &input).unwrap(),
+                    gpu.zeros("answers", 4 * n as u64).unwrap(),
+                );
+                gpu.run(
+                    entry,
+                    &[Dispatch {
+                        pipeline: &pipeline,
+                        buffers: &[&input, &output],
+                        groups: groups(n as u64),
+                    }],
+                )
+                .unwrap();
                 let found: Vec<f32> = gpu.download(&output, n).unwrap();
-                let near = |shift: usize| (0..n).filter(|&i| (found[i] - expected[(i + shift) % n]).abs() <= 1e-4).count();
+                let near = |shift: usize| {
+                    (0..n)
+                        .filter(|&i| (found[i] - expected[(i + shift) % n]).abs() <= 1e-4)
+                        .count()
+                };
                 // NaN is near to nothing.
                 let off = |shift: usize| n - near(shift);
-                assert!(off(0) == 0 && off(1) > n / 2, "{set:?} {entry}: {} off, {} of the control", off(0), off(1));
+                assert!(
+                    off(0) == 0 && off(1) > n / 2,
+                    "{set:?} {entry}: {} off, {} of the control",
+                    off(0),
+                    off(1)
+                );
             }
         }
     }

@@ -13,7 +13,7 @@ use crate::dataset::{DatasetConfig, Rows, file as dataset_file};
 use crate::features::FeatureSet;
 use crate::model::{Mlp, file};
 use crate::synth::SynthConfig;
-use crate::train::Backend;
+use crate::train::{Backend, Engine};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
@@ -55,7 +55,7 @@ struct Common {
 
 #[derive(Args)]
 struct BenchTrain {
-    /// What computes the gradients [default: fused,flex,ndarray; fused with --stream].
+    /// What computes the gradients [default: fused and burn's backends for the CPU; fused with --stream].
     #[arg(long, value_enum, value_delimiter = ',')]
     backend: Vec<BackendName>,
     /// Train whole epochs of a configuration with fresh pixels, against the same rows in memory and against generation alone.
@@ -113,13 +113,19 @@ struct BenchInfer {
 impl Common {
     /// Starts as many threads as are asked for.
     fn prepare(&self) -> anyhow::Result<Plan> {
-        let plan = Plan { repeat: self.repeat, sample_seconds: self.sample_seconds };
+        let plan = Plan {
+            repeat: self.repeat,
+            sample_seconds: self.sample_seconds,
+        };
         plan.validate().context("--repeat, --sample-seconds")?;
         if let Some(threads) = self.threads {
             if !(1..=4096).contains(&threads) {
                 bail!("--threads {threads}: must be from 1 to 4096");
             }
-            rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().context("--threads")?;
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build_global()
+                .context("--threads")?;
         }
         Ok(plan)
     }
@@ -129,14 +135,23 @@ impl Common {
 fn networks(texts: &[String], features: Option<&str>) -> anyhow::Result<Vec<Network>> {
     let set = match features {
         None => None,
-        Some(name) => Some(FeatureSet::ALL.into_iter().find(|set| set.name() == name).with_context(|| {
-            let names: Vec<&str> = FeatureSet::ALL.iter().map(|set| set.name()).collect();
-            format!("--features '{name}': no such feature set; there are {}", names.join(", "))
-        })?),
+        Some(name) => Some(
+            FeatureSet::ALL
+                .into_iter()
+                .find(|set| set.name() == name)
+                .with_context(|| {
+                    let names: Vec<&str> = FeatureSet::ALL.iter().map(|set| set.name()).collect();
+                    format!(
+                        "--features '{name}': no such feature set; there are {}",
+                        names.join(", ")
+                    )
+                })?,
+        ),
     };
     let of = |text: &String| {
         let network: Network = text.parse().context("--network")?;
-        set.map_or(Ok(network.clone()), |set| network.on(set)).context("--features")
+        set.map_or(Ok(network.clone()), |set| network.on(set))
+            .context("--features")
     };
     texts.iter().map(of).collect()
 }
@@ -152,7 +167,12 @@ struct Turns<'a> {
 impl<'a> Turns<'a> {
     fn new(ui: &'a Ui, measurements: usize, plan: Plan) -> Self {
         let repeat = plan.repeat as u64;
-        Self { ui, progress: ui.progress("bench", measurements as u64 * repeat), repeat, done: 0 }
+        Self {
+            ui,
+            progress: ui.progress("bench", measurements as u64 * repeat),
+            repeat,
+            done: 0,
+        }
     }
 
     /// Makes one measurement of `repeat` repetitions.
@@ -168,7 +188,9 @@ impl<'a> Turns<'a> {
     fn finish(self, results: &[(String, Summary)]) {
         self.progress.finish();
         let restless: Vec<&(String, Summary)> = results.iter().filter(|(_, s)| s.is_restless()).collect();
-        let Some((name, worst)) = restless.iter().max_by(|a, b| a.1.spread().total_cmp(&b.1.spread())) else { return };
+        let Some((name, worst)) = restless.iter().max_by(|a, b| a.1.spread().total_cmp(&b.1.spread())) else {
+            return;
+        };
         self.ui.warn(&format!(
             "warning: {} of {} figures are uncertain; the slowest repetition of {name} took {:.1} times as long as the fastest. Something else may be \
              running: stop it and measure again, or try --repeat {} and a longer --sample-seconds",
@@ -227,31 +249,44 @@ fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
 
 /// A table of networks, each group against its first.
 fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
-    let mut rows = vec![cells(["network", "batch", "backend", "simd", unit, "ms", "min", "max", "MAD", "GFLOP/s", "of peak", "ratio"])];
-    for m in groups.iter().flat_map(|group| group.iter().map(move |m| (m, &group[0]))).map(|(m, first)| {
-        let s = Summary::of(&m.samples.seconds);
-        vec![
-            m.network.clone(),
-            m.batch.to_string(),
-            m.backend.to_owned(),
-            m.simd.unwrap_or("-").to_owned(),
-            millions(m.rows_per_second()),
-            milliseconds(s.median),
-            milliseconds(s.min),
-            milliseconds(s.max),
-            milliseconds(s.mad),
-            format!("{:.1}", m.gflops()),
-            format!("{:.1} %", 100.0 * m.share_of_peak()),
-            format!("{:.2}", m.rows_per_second() / first.rows_per_second()),
-        ]
-    }) {
+    let mut rows = vec![cells([
+        "network", "batch", "backend", "simd", unit, "ms", "min", "max", "MAD", "GFLOP/s", "of peak", "ratio",
+    ])];
+    for m in groups
+        .iter()
+        .flat_map(|group| group.iter().map(move |m| (m, &group[0])))
+        .map(|(m, first)| {
+            let s = Summary::of(&m.samples.seconds);
+            vec![
+                m.network.clone(),
+                m.batch.to_string(),
+                m.backend.to_owned(),
+                m.simd.unwrap_or("-").to_owned(),
+                millions(m.rows_per_second()),
+                milliseconds(s.median),
+                milliseconds(s.min),
+                milliseconds(s.max),
+                milliseconds(s.mad),
+                format!("{:.1}", m.gflops()),
+                format!("{:.1} %", 100.0 * m.share_of_peak()),
+                format!("{:.2}", m.rows_per_second() / first.rows_per_second()),
+            ]
+        })
+    {
         rows.push(m);
     }
     let peaks: Vec<f64> = groups.iter().map(|group| group[0].peak_gflops()).collect();
     let peak = Summary::of(&peaks);
-    let range = if peaks.len() == 1 { format!("{:.1}", peak.median) } else { format!("{:.1} to {:.1}", peak.min, peak.max) };
+    let range = if peaks.len() == 1 {
+        format!("{:.1}", peak.median)
+    } else {
+        format!("{:.1} to {:.1}", peak.min, peak.max)
+    };
     let first = groups[0][0].samples.seconds.len();
-    let on_gpus: String = groups[0].iter().filter_map(|m| m.adapter.as_ref().map(|name| format!("; {} on {name}", m.backend))).collect();
+    let on_gpus: String = groups[0]
+        .iter()
+        .filter_map(|m| m.adapter.as_ref().map(|name| format!("; {} on {name}", m.backend)))
+        .collect();
     format!(
         "{}medians of {first} repetitions by turns on {} threads; ms of one call; multiply-add peak {range} GFLOP/s, the best of the same turns{on_gpus}\n",
         table(&rows),
@@ -260,7 +295,16 @@ fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
 }
 
 fn summaries(groups: &[Vec<Measurement>]) -> Vec<(String, Summary)> {
-    groups.iter().flatten().map(|m| (format!("{} on {} rows by {}", m.network, m.batch, m.backend), Summary::of(&m.samples.seconds))).collect()
+    groups
+        .iter()
+        .flatten()
+        .map(|m| {
+            (
+                format!("{} on {} rows by {}", m.network, m.batch, m.backend),
+                Summary::of(&m.samples.seconds),
+            )
+        })
+        .collect()
 }
 
 impl Bench {
@@ -277,10 +321,19 @@ impl Bench {
 
 impl BenchTrain {
     fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let default: &[BackendName] =
-            if self.stream.is_some() { &[BackendName::Fused] } else { &[BackendName::Fused, BackendName::Flex, BackendName::Ndarray] };
-        let names = if self.backend.is_empty() { default } else { &self.backend };
-        let backends: Vec<Backend> = names.iter().map(|&name| name.try_into()).collect::<Result<_, _>>().context("--backend")?;
+        let mut backends: Vec<Backend> = self
+            .backend
+            .iter()
+            .map(|&name| name.try_into())
+            .collect::<Result<_, _>>()
+            .context("--backend")?;
+        if backends.is_empty() {
+            backends.push(Backend::Fused);
+            if self.stream.is_none() {
+                let on_cpu = |engine: &&Engine| matches!(engine.name(), "flex" | "ndarray");
+                backends.extend(Engine::ALL.iter().filter(on_cpu).map(|&engine| Backend::Burn(engine)));
+            }
+        }
         for &backend in &backends {
             backend.adapter().context("--backend")?;
         }
@@ -293,7 +346,10 @@ impl BenchTrain {
     fn streamed(&self, config: &Path, backends: &[Backend], ui: &Ui) -> anyhow::Result<Verdict> {
         let config = Config::load(config)?;
         if config.dataset.refresh == 0.0 {
-            bail!("--stream: dataset.refresh of '{}' is 0, so nothing is streamed; set it above 0", config.name);
+            bail!(
+                "--stream: dataset.refresh of '{}' is 0, so nothing is streamed; set it above 0",
+                config.name
+            );
         }
         let plan = self.common.prepare()?;
         let dataset = super::generate::build(&config, ui)?;
@@ -301,11 +357,21 @@ impl BenchTrain {
         let mut results = Vec::new();
         for &backend in backends {
             let what = format!("{}, {}", config.name, backend.name());
-            results.push(turns.take(&what, |progress| train::stream_epochs(plan, &dataset, &config.train, config.seed, backend, progress))?);
+            results.push(turns.take(&what, |progress| {
+                train::stream_epochs(plan, &dataset, &config.train, config.seed, backend, progress)
+            })?);
         }
-        let figures =
-            |s: &Streaming| [("in memory", &s.in_memory), ("streamed", &s.streamed), ("generation", &s.generation)].map(|(n, s)| (n, s.clone()));
-        let all = results.iter().flat_map(|s| figures(s).map(|(name, of)| (format!("{name} by {}", s.backend), Summary::of(&of.seconds))));
+        let figures = |s: &Streaming| {
+            [
+                ("in memory", &s.in_memory),
+                ("streamed", &s.streamed),
+                ("generation", &s.generation),
+            ]
+            .map(|(n, s)| (n, s.clone()))
+        };
+        let all = results
+            .iter()
+            .flat_map(|s| figures(s).map(|(name, of)| (format!("{name} by {}", s.backend), Summary::of(&of.seconds))));
         turns.finish(&all.collect::<Vec<_>>());
         if ui.json() {
             let of = |s: &Streaming| {
@@ -318,16 +384,42 @@ impl BenchTrain {
                 });
                 merged(object, timing(&s.streamed.seconds, s.streamed.calls))
             };
-            return ui.print_json("bench", results.iter().map(of).collect()).map(|()| Verdict::Fine);
+            return ui
+                .print_json("bench", results.iter().map(of).collect())
+                .map(|()| Verdict::Fine);
         }
-        let mut rows = vec![cells(["network", "batch", "backend", "rows", "rate", "ms", "min", "max", "MAD", "of memory", "of bound"])];
+        let mut rows = vec![cells([
+            "network",
+            "batch",
+            "backend",
+            "rows",
+            "rate",
+            "ms",
+            "min",
+            "max",
+            "MAD",
+            "of memory",
+            "of bound",
+        ])];
         for s in &results {
             let (training, bound) = (Summary::of(&s.in_memory.rates).median, s.bound());
             for (name, samples) in figures(s) {
                 let (time, rate) = (Summary::of(&samples.seconds), Summary::of(&samples.rates).median);
-                let share = |of: f64| if name == "streamed" { format!("{:.2}", rate / of) } else { "-".to_owned() };
+                let share = |of: f64| {
+                    if name == "streamed" {
+                        format!("{:.2}", rate / of)
+                    } else {
+                        "-".to_owned()
+                    }
+                };
                 let times = [time.median, time.min, time.max, time.mad].map(milliseconds);
-                let head = [s.network.clone(), s.batch.to_string(), s.backend.to_owned(), name.to_owned(), millions(rate)];
+                let head = [
+                    s.network.clone(),
+                    s.batch.to_string(),
+                    s.backend.to_owned(),
+                    name.to_owned(),
+                    millions(rate),
+                ];
                 rows.push([head.to_vec(), times.to_vec(), vec![share(training), share(bound)]].concat());
             }
         }
@@ -345,11 +437,14 @@ impl BenchTrain {
 
     fn in_memory(&self, backends: &[Backend], ui: &Ui) -> anyhow::Result<Verdict> {
         let networks = networks(&self.network, self.features.as_deref())?;
-        if let Some(batch) = self.batch.iter().find(|&&b| b == 0 || b > network::MOST_ROWS) {
-            bail!("--batch {batch}: must be a multiple of 16, from 16 to {}", network::MOST_ROWS);
+        if let Some(batch) = self.batch.iter().find(|&&b| b == 0 || b > network::MAX_ROWS) {
+            bail!(
+                "--batch {batch}: must be a multiple of 16, from 16 to {}",
+                network::MAX_ROWS
+            );
         }
-        if self.rows > network::MOST_ROWS {
-            bail!("--rows {}: must be at most {}", self.rows, network::MOST_ROWS);
+        if self.rows > network::MAX_ROWS {
+            bail!("--rows {}: must be at most {}", self.rows, network::MAX_ROWS);
         }
         let given = match &self.dataset {
             Some(folder) => Some(dataset_file::read_from(folder)?.training),
@@ -360,16 +455,25 @@ impl BenchTrain {
         let mut groups = Vec::new();
         for network in &networks {
             for &batch in &self.batch {
-                let random: Option<Rows> =
-                    given.is_none().then(|| network::random_rows(network.feature_set(), self.rows.max(batch).next_multiple_of(batch)));
+                let random: Option<Rows> = given
+                    .is_none()
+                    .then(|| network::random_rows(network.feature_set(), self.rows.max(batch).next_multiple_of(batch)));
                 let rows = given.as_ref().or(random.as_ref()).expect("one of the two");
-                groups
-                    .push(turns.take(&format!("{network}, batch {batch}"), |progress| train::train(plan, network, backends, rows, batch, progress))?);
+                groups.push(turns.take(&format!("{network}, batch {batch}"), |progress| {
+                    train::train(plan, network, backends, rows, batch, progress)
+                })?);
             }
         }
         turns.finish(&summaries(&groups));
         if ui.json() {
-            ui.print_json("bench", groups.iter().flatten().map(|m| measurement_json("train", &["samples_per_second"], m)).collect())?;
+            ui.print_json(
+                "bench",
+                groups
+                    .iter()
+                    .flatten()
+                    .map(|m| measurement_json("train", &["samples_per_second"], m))
+                    .collect(),
+            )?;
         } else {
             ui.print(&measurement_table("samples/s", &groups))?;
         }
@@ -381,18 +485,41 @@ impl BenchGenerate {
     fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let sources = if self.config.is_empty() {
             let dataset = DatasetConfig::of(FeatureSet::Paper, 1, 1);
-            vec![generate::Source { name: "paper".to_owned(), seed: 1, synth: SynthConfig::paper(), dataset }]
+            vec![generate::Source {
+                name: "paper".to_owned(),
+                seed: 1,
+                synth: SynthConfig::paper(),
+                dataset,
+            }]
         } else {
             let load = |path: &PathBuf| {
-                let Config { name, seed, synth, dataset, .. } = Config::load(path)?;
-                anyhow::Ok(generate::Source { name, seed, synth, dataset })
+                let Config {
+                    name,
+                    seed,
+                    synth,
+                    dataset,
+                    ..
+                } = Config::load(path)?;
+                anyhow::Ok(generate::Source {
+                    name,
+                    seed,
+                    synth,
+                    dataset,
+                })
             };
             self.config.iter().map(load).collect::<anyhow::Result<_>>()?
         };
         let plan = self.common.prepare()?;
         let mut turns = Turns::new(ui, 1, plan);
-        let results = turns.take("pixels", |progress| generate::generate(plan, &sources, self.pairs, progress))?;
-        turns.finish(&results.iter().map(|g| (g.name.clone(), Summary::of(&g.samples.seconds))).collect::<Vec<_>>());
+        let results = turns.take("pixels", |progress| {
+            generate::generate(plan, &sources, self.pairs, progress)
+        })?;
+        turns.finish(
+            &results
+                .iter()
+                .map(|g| (g.name.clone(), Summary::of(&g.samples.seconds)))
+                .collect::<Vec<_>>(),
+        );
         if ui.json() {
             let of = |g: &generate::Generation| {
                 let object = json!({
@@ -401,16 +528,33 @@ impl BenchGenerate {
                 });
                 merged(object, timing(&g.samples.seconds, g.samples.calls))
             };
-            return ui.print_json("bench", results.iter().map(of).collect()).map(|()| Verdict::Fine);
+            return ui
+                .print_json("bench", results.iter().map(of).collect())
+                .map(|()| Verdict::Fine);
         }
         let mut rows = vec![cells(["config", "features", "pairs/s", "ms", "min", "max", "MAD"])];
         for g in &results {
             let s = Summary::of(&g.samples.seconds);
             let times = [s.median, s.min, s.max, s.mad].map(milliseconds);
-            rows.push([vec![g.name.clone(), g.features.to_owned(), millions(Summary::of(&g.samples.rates).median)], times.to_vec()].concat());
+            rows.push(
+                [
+                    vec![
+                        g.name.clone(),
+                        g.features.to_owned(),
+                        millions(Summary::of(&g.samples.rates).median),
+                    ],
+                    times.to_vec(),
+                ]
+                .concat(),
+            );
         }
         let threads = rayon::current_num_threads();
-        ui.print(&format!("{}medians of {} repetitions on {threads} threads; ms of {} pairs\n", table(&rows), plan.repeat, self.pairs))?;
+        ui.print(&format!(
+            "{}medians of {} repetitions on {threads} threads; ms of {} pairs\n",
+            table(&rows),
+            plan.repeat,
+            self.pairs
+        ))?;
         Ok(Verdict::Fine)
     }
 }
@@ -418,12 +562,18 @@ impl BenchGenerate {
 impl BenchInfer {
     fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let mlps: Vec<Mlp> = if self.model.is_empty() {
-            networks(&self.network, self.features.as_deref())?.iter().map(Network::mlp).collect::<Result<_, _>>()?
+            networks(&self.network, self.features.as_deref())?
+                .iter()
+                .map(Network::mlp)
+                .collect::<Result<_, _>>()?
         } else {
-            self.model.iter().map(|path| file::load(path)).collect::<Result<_, _>>()?
+            self.model
+                .iter()
+                .map(|path| file::load(path))
+                .collect::<Result<_, _>>()?
         };
-        if let Some(batch) = self.batch.iter().find(|&&b| b == 0 || b > network::MOST_ROWS) {
-            bail!("--batch {batch}: must be from 1 to {}", network::MOST_ROWS);
+        if let Some(batch) = self.batch.iter().find(|&&b| b == 0 || b > network::MAX_ROWS) {
+            bail!("--batch {batch}: must be from 1 to {}", network::MAX_ROWS);
         }
         let plan = self.common.prepare()?;
         let library = library();
@@ -435,13 +585,22 @@ impl BenchInfer {
         for mlp in &mlps {
             for &batch in &self.batch {
                 let what = format!("{}, batch {batch}", mlp.shape());
-                groups.push(turns.take(&what, |progress| infer::infer(plan, mlp, batch, library.as_deref().ok(), progress))?);
+                groups.push(turns.take(&what, |progress| {
+                    infer::infer(plan, mlp, batch, library.as_deref().ok(), progress)
+                })?);
             }
         }
         turns.finish(&summaries(&groups));
         if ui.json() {
             let rates = ["fragments_per_second", "rows_per_second"];
-            ui.print_json("bench", groups.iter().flatten().map(|m| measurement_json("infer", &rates, m)).collect())?;
+            ui.print_json(
+                "bench",
+                groups
+                    .iter()
+                    .flatten()
+                    .map(|m| measurement_json("infer", &rates, m))
+                    .collect(),
+            )?;
         } else {
             ui.print(&measurement_table("rows/s", &groups))?;
         }

@@ -58,7 +58,9 @@ impl BenchTiles {
         }
         progress.finish();
         if ui.json() {
-            let all = results.iter().flat_map(|(scene, frames)| frames.samples.iter().map(|s| sample_json(scene, frames, s)));
+            let all = results
+                .iter()
+                .flat_map(|(scene, frames)| frames.samples.iter().map(|s| sample_json(scene, frames, s)));
             ui.print_json("bench", all.collect())?;
         } else {
             ui.print(&text(gpu, &results, self.repeat))?;
@@ -114,9 +116,21 @@ fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
                 format!("{:.3}", 1e3 * second.median),
                 format!("{:.3}", 1e3 * second.min),
                 format!("{:.3}", 1e3 * second.max),
-                frames.speedup(s).map_or_else(|| "-".to_owned(), |x| format!("{x:.2} x")),
-                of(&|w| w.pixels.map_or_else(|| "all".to_owned(), |p| format!("{} of {}", p.network, p.network + p.known))),
-                of(&|w| format!("{:.1} %", 100.0 * (1.0 - w.asked as f64 / frames.fragments.max(1) as f64))),
+                frames
+                    .speedup(s)
+                    .map_or_else(|| "-".to_owned(), |x| format!("{x:.2} x")),
+                of(&|w| {
+                    w.pixels.map_or_else(
+                        || "all".to_owned(),
+                        |p| format!("{} of {}", p.network, p.network + p.known),
+                    )
+                }),
+                of(&|w| {
+                    format!(
+                        "{:.1} %",
+                        100.0 * (1.0 - w.asked as f64 / frames.fragments.max(1) as f64)
+                    )
+                }),
                 of(&|w| format!("{:.1e}", w.greatest_change)),
                 of(&|w| format!("{:.1e}", w.flip_change)),
             ]);

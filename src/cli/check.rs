@@ -39,10 +39,19 @@ impl CheckArguments {
     /// Tools that are required here or by the environment.
     fn required(&self) -> anyhow::Result<Vec<String>> {
         let variable = std::env::var(REQUIRE_VARIABLE).unwrap_or_default();
-        let tools: Vec<String> =
-            self.require.iter().map(String::as_str).chain(variable.split(',')).map(|t| t.trim().to_owned()).filter(|t| !t.is_empty()).collect();
+        let tools: Vec<String> = self
+            .require
+            .iter()
+            .map(String::as_str)
+            .chain(variable.split(','))
+            .map(|t| t.trim().to_owned())
+            .filter(|t| !t.is_empty())
+            .collect();
         if let Some(unknown) = tools.iter().find(|t| !OPTIONAL_TOOLS.contains(&t.as_str())) {
-            bail!("--require or {REQUIRE_VARIABLE} names '{unknown}'; known are {}", OPTIONAL_TOOLS.join(", "));
+            bail!(
+                "--require or {REQUIRE_VARIABLE} names '{unknown}'; known are {}",
+                OPTIONAL_TOOLS.join(", ")
+            );
         }
         Ok(tools)
     }
@@ -62,7 +71,13 @@ impl Check {
 }
 
 /// Checks with progress on stderr.
-pub fn findings(mlp: &Mlp, exports: &Path, formats: &[Format], arguments: &CheckArguments, ui: &Ui) -> anyhow::Result<Vec<Finding>> {
+pub fn findings(
+    mlp: &Mlp,
+    exports: &Path,
+    formats: &[Format],
+    arguments: &CheckArguments,
+    ui: &Ui,
+) -> anyhow::Result<Vec<Finding>> {
     let required = arguments.required()?;
     let progress = ui.progress("check", formats.len() as u64 + 1);
     let done = std::cell::Cell::new(0);
@@ -76,7 +91,11 @@ pub fn findings(mlp: &Mlp, exports: &Path, formats: &[Format], arguments: &Check
 }
 
 pub fn verdict(findings: &[Finding]) -> Verdict {
-    if findings.iter().any(|f| matches!(f.status, Status::Failed(_))) { Verdict::CheckFailed } else { Verdict::Fine }
+    if findings.iter().any(|f| matches!(f.status, Status::Failed(_))) {
+        Verdict::CheckFailed
+    } else {
+        Verdict::Fine
+    }
 }
 
 pub fn to_json(finding: &Finding) -> Value {
@@ -100,8 +119,21 @@ pub fn to_json(finding: &Finding) -> Value {
 
 /// A table of all findings, then the reasons of those that did not pass.
 fn text(findings: &[Finding]) -> String {
-    let mut rows =
-        vec![["format", "checked by", "question", "rows", "worst error", "mean error", "own pass", "bar", "result"].map(str::to_owned).to_vec()];
+    let mut rows = vec![
+        [
+            "format",
+            "checked by",
+            "question",
+            "rows",
+            "worst error",
+            "mean error",
+            "own pass",
+            "bar",
+            "result",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
     let mut reasons = String::new();
     for f in findings {
         let result = match &f.status {
@@ -123,7 +155,12 @@ fn text(findings: &[Finding]) -> String {
         }
         let head = [f.format.name(), f.tool, f.question].map(str::to_owned);
         if f.numbers.is_empty() {
-            rows.push(head.iter().cloned().chain(["", "", "", "", "", result].map(str::to_owned)).collect());
+            rows.push(
+                head.iter()
+                    .cloned()
+                    .chain(["", "", "", "", "", result].map(str::to_owned))
+                    .collect(),
+            );
         }
         for n in &f.numbers {
             let numbers = [

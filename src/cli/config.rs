@@ -58,7 +58,8 @@ pub struct EvaluateConfig {
 impl Config {
     /// Reads and validates a file, and the one that it extends.
     pub fn load(path: &Path) -> anyhow::Result<Self> {
-        let wrong = |path: &Path, e: toml::de::Error| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end());
+        let wrong =
+            |path: &Path, e: toml::de::Error| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end());
         let text = text_of(path)?;
         let head: Head = toml::from_str(&text).map_err(|e| wrong(path, e))?;
         let config: Self = match head.extends {
@@ -68,7 +69,10 @@ impl Config {
                 let base = path.with_file_name(base);
                 let mut whole: Table = toml::from_str(&text_of(&base)?).map_err(|e| wrong(&base, e))?;
                 if whole.contains_key("extends") {
-                    bail!("{}: extends another file itself; only one step is followed", base.display());
+                    bail!(
+                        "{}: extends another file itself; only one step is followed",
+                        base.display()
+                    );
                 }
                 let mut changes: Table = toml::from_str(&text).map_err(|e| wrong(path, e))?;
                 changes.remove("extends");
@@ -85,8 +89,12 @@ impl Config {
         self.synth.validate()?;
         self.dataset.validate()?;
         self.train.validate()?;
-        if !(1..=crate::dataset::build::MOST_PAIRS).contains(&self.evaluate.pairs) {
-            bail!("evaluate.pairs = {}: must be from 1 to {}", self.evaluate.pairs, crate::dataset::build::MOST_PAIRS);
+        if !(1..=crate::dataset::build::MAX_PAIRS).contains(&self.evaluate.pairs) {
+            bail!(
+                "evaluate.pairs = {}: must be from 1 to {}",
+                self.evaluate.pairs,
+                crate::dataset::build::MAX_PAIRS
+            );
         }
         Ok(())
     }

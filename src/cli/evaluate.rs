@@ -101,7 +101,11 @@ impl Evaluate {
         let methods = self.methods()?;
         let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
 
-        let with_skip: HashSet<String> = methods.iter().filter(|asked| asked.skips).map(|asked| asked.method.name()).collect();
+        let with_skip: HashSet<String> = methods
+            .iter()
+            .filter(|asked| asked.skips)
+            .map(|asked| asked.method.name())
+            .collect();
         let names = scene_names(&self.fragments);
         let mut results = Vec::new();
         let mut refused = false;
@@ -124,7 +128,16 @@ impl Evaluate {
             let progress = ui.progress("evaluate", methods.len() as u64);
             let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-            for (index, Asked { method, demanded, shader, skips }) in methods.iter().enumerate() {
+            for (
+                index,
+                Asked {
+                    method,
+                    demanded,
+                    shader,
+                    skips,
+                },
+            ) in methods.iter().enumerate()
+            {
                 progress.set(index as u64, format!("{name}: {}", method.name()));
                 let mut judged = match truth.judge(&**method, context) {
                     Ok(judged) => judged,
@@ -135,15 +148,25 @@ impl Evaluate {
                         continue;
                     }
                 };
-                let stem = (1..).map(|n| if n == 1 { file_stem(&method.name()) } else { format!("{}-{n}", file_stem(&method.name())) });
-                let stem = stem.into_iter().find(|s| !stems.contains(s)).expect("there are more numbers than methods");
+                let stem = (1..).map(|n| {
+                    if n == 1 {
+                        file_stem(&method.name())
+                    } else {
+                        format!("{}-{n}", file_stem(&method.name()))
+                    }
+                });
+                let stem = stem
+                    .into_iter()
+                    .find(|s| !stems.contains(s))
+                    .expect("there are more numbers than methods");
                 write_method(&folder, &stem, replace, &judged)?;
                 let mut drawn = None;
                 if let (Some(gpu), Some((image, _))) = (gpu, &judged.picture) {
                     let judged = match shader {
                         Some(Ok(shader)) => {
                             let skip = if *skips { self.skip.into() } else { Skip::Exact };
-                            gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), skip, image).map_err(|e| e.to_string())
+                            gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), skip, image)
+                                .map_err(|e| e.to_string())
                         }
                         Some(Err(why)) => Err(why.to_string()),
                         None => Err(format!("{} has no shader", method.name())),
@@ -169,12 +192,20 @@ impl Evaluate {
             if let Some(sheet) = sheet.filter(|_| !found.is_empty()) {
                 sheet.write(&folder.join("sheet.png"), replace)?;
             }
-            let heading = format!("{name}: {} fragments, at most {} in a pixel\n", list.len(), list.depth_complexity());
+            let heading = format!(
+                "{name}: {} fragments, at most {} in a pixel\n",
+                list.len(),
+                list.depth_complexity()
+            );
             if !ui.json() {
                 let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, self.gpu_storage.into(), &found));
                 ui.print(&format!("{heading}{}{on_gpu}{remarks}\n", rows(&found)))?;
             }
-            results.extend(found.iter().map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())));
+            results.extend(
+                found
+                    .iter()
+                    .map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())),
+            );
         }
         let skip = Skip::from(self.skip);
         for result in results.iter_mut().filter_map(Value::as_object_mut) {
@@ -202,7 +233,11 @@ impl Evaluate {
         let mut seen = HashSet::new();
         let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
         for name in &self.methods {
-            let (names, demanded) = if name == "all" { (all_names(), false) } else { (vec![name.clone()], true) };
+            let (names, demanded) = if name == "all" {
+                (all_names(), false)
+            } else {
+                (vec![name.clone()], true)
+            };
             for name in names {
                 if seen.insert(name.clone()) {
                     let method = parse(&name)?;
@@ -211,17 +246,34 @@ impl Evaluate {
                         Some(path) => Some(shader(Path::new(path))?),
                         None => MethodShader::classic(&name).map(Ok),
                     };
-                    methods.push(Asked { method, demanded, skips: false, shader });
+                    methods.push(Asked {
+                        method,
+                        demanded,
+                        skips: false,
+                        shader,
+                    });
                 }
             }
         }
         for path in &self.model {
             let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
-            methods.push(Asked { method, demanded: true, skips: true, shader: self.gpu.then(|| shader(path)).transpose()? });
-            let after = Neural::new(file::load(path)?).with_skip(self.skip.into()).with_frame(MomentFrame::Pixel);
+            methods.push(Asked {
+                method,
+                demanded: true,
+                skips: true,
+                shader: self.gpu.then(|| shader(path)).transpose()?,
+            });
+            let after = Neural::new(file::load(path)?)
+                .with_skip(self.skip.into())
+                .with_frame(MomentFrame::Pixel);
             // A network whose moments are not of logarithmic depth has no other frame.
             if self.prepass && after.frame() == MomentFrame::Pixel {
-                methods.push(Asked { method: Box::new(after), demanded: true, skips: true, shader: None });
+                methods.push(Asked {
+                    method: Box::new(after),
+                    demanded: true,
+                    skips: true,
+                    shader: None,
+                });
             }
         }
         Ok(methods)
@@ -232,10 +284,16 @@ impl Evaluate {
 fn scene_names(fragments: &[String]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for scene in fragments {
-        let stem = Path::new(scene).file_stem().map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
+        let stem = Path::new(scene)
+            .file_stem()
+            .map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
         let stem = file_stem(&stem);
         let free = (2..).map(|n| format!("{stem}-{n}")).find(|n| !names.contains(n));
-        names.push(if names.contains(&stem) { free.expect("there are more numbers than scenes") } else { stem });
+        names.push(if names.contains(&stem) {
+            free.expect("there are more numbers than scenes")
+        } else {
+            stem
+        });
     }
     names
 }
@@ -249,7 +307,10 @@ fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList, gpu: Opti
         object.insert("fragments".to_owned(), list.len().into());
         object.insert("depth_complexity".to_owned(), list.depth_complexity().into());
         if let Some(gpu) = gpu {
-            object.insert("gpu".to_owned(), serde_json::to_value(gpu).expect("results are plain data"));
+            object.insert(
+                "gpu".to_owned(),
+                serde_json::to_value(gpu).expect("results are plain data"),
+            );
         }
     }
     value
@@ -262,7 +323,17 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
         Some(x) if x.is_nan() => "NaN".to_owned(),
         Some(x) => text(x),
     };
-    let head = ["method", "image MSE x1e-4", "PSNR dB", "FLIP", "T-MSE", "worst T", "non-finite", "bits/pixel", "seconds"];
+    let head = [
+        "method",
+        "image MSE x1e-4",
+        "PSNR dB",
+        "FLIP",
+        "T-MSE",
+        "worst T",
+        "non-finite",
+        "bits/pixel",
+        "seconds",
+    ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for (r, _) in results {
         lines.push(vec![
@@ -273,7 +344,11 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
             number(r.transmittance_mse, &|x| format!("{x:.2e}")),
             number(r.transmittance_worst_error, &|x| format!("{x:.3}")),
             r.nonfinite.to_string(),
-            if r.bits_per_pixel == u32::MAX { "unbounded".to_owned() } else { r.bits_per_pixel.to_string() },
+            if r.bits_per_pixel == u32::MAX {
+                "unbounded".to_owned()
+            } else {
+                r.bits_per_pixel.to_string()
+            },
             format!("{:.3}", r.seconds),
         ]);
     }
@@ -286,7 +361,18 @@ fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[(MethodResult, Option<GpuRes
         return String::new();
     }
     let milliseconds = |s: f64| format!("{:.2}", s * 1e3);
-    let head = ["method", "99.9 % within", "worst", "FLIP to CPU", "image MSE x1e-4", "FLIP", "non-finite", "pass 1 ms", "pass 2 ms", "resolve ms"];
+    let head = [
+        "method",
+        "99.9 % within",
+        "worst",
+        "FLIP to CPU",
+        "image MSE x1e-4",
+        "FLIP",
+        "non-finite",
+        "pass 1 ms",
+        "pass 2 ms",
+        "resolve ms",
+    ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     for r in results.iter().filter_map(|r| r.1.as_ref()) {
         lines.push(vec![

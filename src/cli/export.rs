@@ -130,7 +130,12 @@ impl Export {
             }
         };
         let formats = self.formats.formats()?;
-        let paths = export::write(&mlp, &self.out, &formats, if self.force { Replace::Yes } else { Replace::No })?;
+        let paths = export::write(
+            &mlp,
+            &self.out,
+            &formats,
+            if self.force { Replace::Yes } else { Replace::No },
+        )?;
         if ui.json() {
             let result = |(f, path): (&Format, &PathBuf)| {
                 json!({
@@ -146,7 +151,11 @@ impl Export {
             }
             if let Some(pruned) = &mlp.provenance.pruned {
                 let (before, after) = (whole.multiply_adds(), mlp.multiply_adds());
-                ui.warn(&format!("{} of {} hidden units were taken out: {after} of {before} multiply-adds are left", pruned.count(), hidden(&whole)));
+                ui.warn(&format!(
+                    "{} of {} hidden units were taken out: {after} of {before} multiply-adds are left",
+                    pruned.count(),
+                    hidden(&whole)
+                ));
             }
         }
         Ok(Verdict::Fine)

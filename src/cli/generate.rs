@@ -43,7 +43,11 @@ impl Generate {
             may_write(path, replace)?;
         }
         let start = Instant::now();
-        let dataset = if self.from.is_empty() { build(&config, ui)? } else { self.build_from_scenes(&config)? };
+        let dataset = if self.from.is_empty() {
+            build(&config, ui)?
+        } else {
+            self.build_from_scenes(&config)?
+        };
         let seconds = start.elapsed().as_secs_f64();
         file::write(&self.out, replace, &dataset)?;
         if let Some(path) = &self.fragments
@@ -52,7 +56,8 @@ impl Generate {
             npz::write(path, replace, &training.followed_by(&validation))?;
         }
         let pairs = dataset.training.len() + dataset.validation.len();
-        let part = |name: &str, part: &file::Part| vec![name.to_owned(), part.pixels.to_string(), part.pairs.to_string()];
+        let part =
+            |name: &str, part: &file::Part| vec![name.to_owned(), part.pixels.to_string(), part.pairs.to_string()];
         if ui.json() {
             ui.print_json(
                 "generate",
@@ -74,16 +79,30 @@ impl Generate {
     }
 
     fn build_from_scenes(&self, config: &Config) -> anyhow::Result<Dataset> {
-        let lists = self.from.iter().map(|name| load(name, &self.options)).collect::<anyhow::Result<Vec<_>>>()?;
+        let lists = self
+            .from
+            .iter()
+            .map(|name| load(name, &self.options))
+            .collect::<anyhow::Result<Vec<_>>>()?;
         let named: Vec<(&str, &FragmentList)> = self.from.iter().map(String::as_str).zip(&lists).collect();
-        Ok(dataset::build_from_lists(&config.name, config.seed, &named, &config.dataset)?)
+        Ok(dataset::build_from_lists(
+            &config.name,
+            config.seed,
+            &named,
+            &config.dataset,
+        )?)
     }
 }
 
 /// The dataset of a configuration.
 pub fn build(config: &Config, ui: &Ui) -> anyhow::Result<Dataset> {
-    let progress = ui.progress("generate", config.dataset.training_pairs + config.dataset.validation_pairs);
-    let built = dataset::build(&config.name, config.seed, &config.synth, &config.dataset, &|n| progress.set(n, "pairs"));
+    let progress = ui.progress(
+        "generate",
+        config.dataset.training_pairs + config.dataset.validation_pairs,
+    );
+    let built = dataset::build(&config.name, config.seed, &config.synth, &config.dataset, &|n| {
+        progress.set(n, "pairs")
+    });
     progress.finish();
     Ok(built?)
 }

@@ -31,16 +31,32 @@ pub struct Import {
 impl Import {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let Some(set) = FeatureSet::ALL.into_iter().find(|s| s.name() == self.features) else {
-            bail!("--features '{}': known are {}", self.features, FeatureSet::ALL.map(FeatureSet::name).join(", "));
+            bail!(
+                "--features '{}': known are {}",
+                self.features,
+                FeatureSet::ALL.map(FeatureSet::name).join(", ")
+            );
         };
         keep_inputs(&[&self.weights], &self.out)?;
-        let stem = self.out.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = self
+            .out
+            .file_stem()
+            .map(|s| s.to_string_lossy().into_owned())
+            .unwrap_or_default();
         let mlp = file::import(&self.weights, &self.name.unwrap_or(stem), set)?;
         file::save(&self.out, if self.force { Replace::Yes } else { Replace::No }, &mlp)?;
         if ui.json() {
-            ui.print_json("import", vec![json!({ "network": mlp.shape(), "features": set.name(), "file": self.out })])?;
+            ui.print_json(
+                "import",
+                vec![json!({ "network": mlp.shape(), "features": set.name(), "file": self.out })],
+            )?;
         } else {
-            ui.print(&format!("{}, features '{}'\n{}\n", mlp.shape(), set.name(), self.out.display()))?;
+            ui.print(&format!(
+                "{}, features '{}'\n{}\n",
+                mlp.shape(),
+                set.name(),
+                self.out.display()
+            ))?;
         }
         Ok(Verdict::Fine)
     }

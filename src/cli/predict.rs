@@ -72,21 +72,41 @@ impl Predict {
         keep_inputs(&[&self.model, &self.fragments], &self.out)?;
         may_write(&self.out, replace)?;
         let mlp = file::load(&self.model)?;
-        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
+        let planes = self
+            .near
+            .zip(self.far)
+            .map(|(near, far)| CameraPlanes::new(near, far))
+            .transpose()?;
         if mlp.feature_set().output() == OutputMeaning::FrontToBackFactor {
-            bail!("{}: its answer is not a transmittance; 'nmt evaluate --model' shows what it is good for", self.model.display());
+            bail!(
+                "{}: its answer is not a transmittance; 'nmt evaluate --model' shows what it is good for",
+                self.model.display()
+            );
         }
         let list = scene::read(&self.fragments)?;
         let shape = mlp.shape();
         let skip = Skip::from(self.skip);
-        let frame = if self.prepass { MomentFrame::Pixel } else { MomentFrame::Scene };
+        let frame = if self.prepass {
+            MomentFrame::Pixel
+        } else {
+            MomentFrame::Scene
+        };
         let method = Neural::new(mlp).with_skip(skip).with_frame(frame);
         let progress = ui.progress("predict", list.len() as u64);
         let start = Instant::now();
-        let answered = method.answers(&list, Context { planes, ..Context::default() }, &|n| progress.set(n, "fragments"));
+        let answered = method.answers(
+            &list,
+            Context {
+                planes,
+                ..Context::default()
+            },
+            &|n| progress.set(n, "fragments"),
+        );
         let seconds = start.elapsed().as_secs_f64();
         progress.finish();
-        let Answered { transmittance, tally, .. } = answered?;
+        let Answered {
+            transmittance, tally, ..
+        } = answered?;
         write_npy(&self.out, replace, ArrayView1::from(&transmittance))?;
         let error = transmittance_error(&transmittance, &abuffer::list_transmittance(&list));
         let rate = list.len() as f64 / seconds;
@@ -103,7 +123,11 @@ impl Predict {
         } else {
             let against = match list.is_empty() {
                 true => "nothing to compare".to_owned(),
-                false => format!("against the A-buffer: T-MSE {:.3e}, worst error {:.3}", error.mse(), error.worst()),
+                false => format!(
+                    "against the A-buffer: T-MSE {:.3e}, worst error {:.3}",
+                    error.mse(),
+                    error.worst()
+                ),
             };
             ui.print(&format!(
                 "{} fragments in {} pixels (at most {} in one), {:.2} M fragments/s\n{}\n{against}\n{}\n",
@@ -121,17 +145,29 @@ impl Predict {
 
 /// Fragments of every class, by its name.
 fn by_class(tally: &Tally) -> Value {
-    Class::ALL.iter().map(|&class| (class.name().to_owned(), json!(tally.of(class)))).collect::<serde_json::Map<_, _>>().into()
+    Class::ALL
+        .iter()
+        .map(|&class| (class.name().to_owned(), json!(tally.of(class))))
+        .collect::<serde_json::Map<_, _>>()
+        .into()
 }
 
 /// What the network was run for, and what decided the rest.
 fn summary(tally: &Tally) -> String {
     let share = |n: u64| format!("{:.1} %", 100.0 * n as f64 / tally.fragments().max(1) as f64);
-    let classes: Vec<String> = Class::ALL.iter().filter(|&&c| tally.of(c) > 0).map(|&c| format!("{} {}", c.name(), share(tally.of(c)))).collect();
+    let classes: Vec<String> = Class::ALL
+        .iter()
+        .filter(|&&c| tally.of(c) > 0)
+        .map(|&c| format!("{} {}", c.name(), share(tally.of(c))))
+        .collect();
     format!(
         "network run for {} of them; {}; pass 1 {:.1} ms, pass 2 {:.1} ms",
         tally.rows,
-        if classes.is_empty() { "none to answer".to_owned() } else { classes.join(", ") },
+        if classes.is_empty() {
+            "none to answer".to_owned()
+        } else {
+            classes.join(", ")
+        },
         1e3 * tally.seconds_pass_1,
         1e3 * tally.seconds_pass_2
     )

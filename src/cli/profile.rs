@@ -10,7 +10,9 @@ use crate::oit::neural::Skip;
 use crate::profile::facts::Histogram;
 use crate::profile::simplify::{Report, Simplified, simplify};
 use crate::profile::specialise::{Plan, Specialised, specialise};
-use crate::profile::{Facts, Networked, Recommendation, Scene, facts, look_into, network, plot, recommend, shipped, skip};
+use crate::profile::{
+    Facts, Networked, Recommendation, Scene, facts, look_into, network, plot, recommend, shipped, skip,
+};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
@@ -81,12 +83,22 @@ impl Profile {
         let planes = scene.context.planes_for(scene.list);
         let mut remarks = Vec::new();
         let models: Vec<Mlp> = if self.model.is_empty() {
-            let (able, unable) = shipped()?.into_iter().partition(|m| m.feature_set().moment_depth() != MomentDepthKind::Window || planes.is_some());
+            let (able, unable) = shipped()?
+                .into_iter()
+                .partition(|m| m.feature_set().moment_depth() != MomentDepthKind::Window || planes.is_some());
             let unable: Vec<Mlp> = unable;
-            remarks.extend(unable.iter().map(|m| format!("{} is left out: it needs the camera's planes, --near and --far", m.name())));
+            remarks.extend(unable.iter().map(|m| {
+                format!(
+                    "{} is left out: it needs the camera's planes, --near and --far",
+                    m.name()
+                )
+            }));
             able
         } else {
-            self.model.iter().map(|path| file::load(path)).collect::<Result<_, _>>()?
+            self.model
+                .iter()
+                .map(|path| file::load(path))
+                .collect::<Result<_, _>>()?
         };
         let progress = ui.progress("profile", models.len() as u64 + 1 + self.repeat as u64);
         progress.set(0, "the scene");
@@ -99,9 +111,13 @@ impl Profile {
         let recommendation = recommend(&facts, &networks, self.target_error);
         let timed = &models[recommendation.index.unwrap_or(0)];
         let before = models.len() as u64 + 1;
-        let skips = skip::measure(scene, timed, self.repeat, &|n| progress.set(before + n, format!("skipping, {}", timed.name())))?;
+        let skips = skip::measure(scene, timed, self.repeat, &|n| {
+            progress.set(before + n, format!("skipping, {}", timed.name()))
+        })?;
         progress.finish();
-        let name = Path::new(&self.fragments).file_stem().map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
+        let name = Path::new(&self.fragments)
+            .file_stem()
+            .map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
         let result = json!({
             "scene": self.fragments, "facts": facts, "networks": networks, "skipping": skips, "skipping_of": timed.name(), "recommendation": recommendation,
             "remarks": remarks,
@@ -134,10 +150,15 @@ impl Profile {
 
     fn specialise(&self, ui: &Ui, scene: &Scene<'_>, model: &Path, replace: Replace) -> anyhow::Result<Verdict> {
         let mlp = file::load(model)?;
-        let plan = Plan { target_error: self.target_error, ..Plan::default() };
+        let plan = Plan {
+            target_error: self.target_error,
+            ..Plan::default()
+        };
         let progress = ui.progress("specialise", plan.attempts as u64);
         let made = interrupt::gracefully(|| {
-            specialise(scene, &mlp, &plan, &interrupt::requested, &|n, network| progress.set(n as u64, format!("sizes tried, now {network}")))
+            specialise(scene, &mlp, &plan, &interrupt::requested, &|n, network| {
+                progress.set(n as u64, format!("sizes tried, now {network}"))
+            })
         });
         progress.finish();
         let made = match made {
@@ -171,7 +192,8 @@ impl Profile {
     fn simplify(&self, ui: &Ui, scene: &Scene<'_>, model: &Path, replace: Replace) -> anyhow::Result<Verdict> {
         let mlp = file::load(model)?;
         let rows = network::rows_of(scene, mlp.feature_set())?;
-        let Simplified { mlp: left, report } = simplify(&mlp, &rows.features).with_context(|| model.display().to_string())?;
+        let Simplified { mlp: left, report } =
+            simplify(&mlp, &rows.features).with_context(|| model.display().to_string())?;
         if !report.identical_bits {
             bail!(
                 "{}: without its silent units the network gives other bits, which is a fault of this program; nothing was written",
@@ -205,7 +227,9 @@ fn percent(x: f64) -> String {
 
 fn bar(share: f64) -> String {
     let eighths = (share * 8.0 * 40.0).round() as usize;
-    let rest = ['\u{258f}', '\u{258e}', '\u{258d}', '\u{258c}', '\u{258b}', '\u{258a}', '\u{2589}'];
+    let rest = [
+        '\u{258f}', '\u{258e}', '\u{258d}', '\u{258c}', '\u{258b}', '\u{258a}', '\u{2589}',
+    ];
     let mut text = "\u{2588}".repeat(eighths / 8);
     if !eighths.is_multiple_of(8) {
         text.push(rest[eighths % 8 - 1]);
@@ -243,7 +267,13 @@ fn histogram(h: &Histogram) -> String {
         rows.push(vec![label, percent(n / all), bar(n / most)]);
     }
     let quantiles = h.quantiles.map_or(String::new(), |q| {
-        format!("least {}, median {}, 95 % up to {}, greatest {}\n", edge(q.min), edge(q.median), edge(q.p95), edge(q.max))
+        format!(
+            "least {}, median {}, 95 % up to {}, greatest {}\n",
+            edge(q.min),
+            edge(q.median),
+            edge(q.p95),
+            edge(q.max)
+        )
     });
     format!("{}{quantiles}\n", table(&rows))
 }
@@ -258,9 +288,18 @@ fn summary(name: &str, facts: &Facts) -> String {
     );
     text.extend(facts.histograms.iter().map(histogram));
     let mut rows = vec![cells(["fragments", "share", "answer", ""])];
-    rows.extend(facts.classes.iter().map(|c| vec![c.class.to_owned(), percent(c.share), c.answer.to_owned(), bar(c.share)]));
+    rows.extend(
+        facts
+            .classes
+            .iter()
+            .map(|c| vec![c.class.to_owned(), percent(c.share), c.answer.to_owned(), bar(c.share)]),
+    );
     text += &table(&rows);
-    text += &format!("behind opaque: {}; below 1/1024 of transmittance: {}\n", percent(facts.behind_opaque), percent(facts.unseen));
+    text += &format!(
+        "behind opaque: {}; below 1/1024 of transmittance: {}\n",
+        percent(facts.behind_opaque),
+        percent(facts.unseen)
+    );
     if let Some(t) = &facts.tiles {
         text += &format!(
             "tiles of 8 x 8 without work for the network: {} under none, {} under exact, {} under visible\n",
@@ -294,7 +333,13 @@ fn networks_table(networks: &[Networked], image: bool) -> String {
         "constant features",
     ])];
     for n in networks {
-        let units = |of: &dyn Fn(&network::Layer) -> usize| n.layers.iter().map(|l| format!("{}/{}", of(l), l.units)).collect::<Vec<_>>().join(" ");
+        let units = |of: &dyn Fn(&network::Layer) -> usize| {
+            n.layers
+                .iter()
+                .map(|l| format!("{}/{}", of(l), l.units))
+                .collect::<Vec<_>>()
+                .join(" ")
+        };
         let constant: Vec<&str> = n.columns.iter().filter(|c| c.is_constant()).map(|c| c.name).collect();
         let stored = |i: usize| number(n.stored.get(i).map(|s| s.error));
         rows.push(vec![
@@ -308,16 +353,31 @@ fn networks_table(networks: &[Networked], image: bool) -> String {
             format!("{:.0}", n.multiply_adds_per_fragment()),
             units(&|l| l.never.len()),
             units(&|l| l.always.len()),
-            if constant.is_empty() { "-".to_owned() } else { constant.join(" ") },
+            if constant.is_empty() {
+                "-".to_owned()
+            } else {
+                constant.join(" ")
+            },
         ]);
     }
     table(&rows) + "\n"
 }
 
 fn skips_table(timed: &Mlp, skips: &[skip::Skipped]) -> String {
-    let mut rows = vec![cells(["skip", "avoided", "pass 2 ms", "against none", "greatest change", "added error", "FLIP", "image MSE"])];
+    let mut rows = vec![cells([
+        "skip",
+        "avoided",
+        "pass 2 ms",
+        "against none",
+        "greatest change",
+        "added error",
+        "FLIP",
+        "image MSE",
+    ])];
     for s in skips {
-        let of = |f: &dyn Fn(&skip::ImageChange) -> f64| s.image.as_ref().map_or("-".to_owned(), |i| format!("{:.2e}", f(i)));
+        let of = |f: &dyn Fn(&skip::ImageChange) -> f64| {
+            s.image.as_ref().map_or("-".to_owned(), |i| format!("{:.2e}", f(i)))
+        };
         rows.push(vec![
             s.skip.to_owned(),
             percent(s.avoided),
@@ -346,7 +406,15 @@ fn words(r: &Recommendation) -> String {
 fn specialised(made: &Specialised, image: bool, out: &Path) -> String {
     let kind = if image { "image MSE" } else { "T-MSE" };
     let held_out = format!("{kind}, held out");
-    let mut rows = vec![cells(["network", "multiply-adds", kind, &held_out, "T-MSE", "keeps the error", "seconds"])];
+    let mut rows = vec![cells([
+        "network",
+        "multiply-adds",
+        kind,
+        &held_out,
+        "T-MSE",
+        "keeps the error",
+        "seconds",
+    ])];
     let row = |a: &crate::profile::specialise::Attempt, t: Option<f64>| {
         vec![
             a.network.clone(),
@@ -362,7 +430,10 @@ fn specialised(made: &Specialised, image: bool, out: &Path) -> String {
     first[5] = "(before)".to_owned();
     rows.push(first);
     for (i, a) in made.attempts.iter().enumerate() {
-        rows.push(row(a, (i == made.chosen).then_some(made.errors_after.transmittance_mse)));
+        rows.push(row(
+            a,
+            (i == made.chosen).then_some(made.errors_after.transmittance_mse),
+        ));
     }
     let (chosen, before) = (&made.attempts[made.chosen], &made.before);
     format!(
@@ -393,13 +464,28 @@ fn simplified(mlp: &Mlp, left: &Mlp, report: &Report, out: &Path) -> String {
         report.multiply_adds_not_zero
     );
     for layer in 0..mlp.layers().len() - 1 {
-        let units: Vec<String> = report.removed.iter().filter(|r| r.layer == layer).map(|r| r.unit.to_string()).collect();
+        let units: Vec<String> = report
+            .removed
+            .iter()
+            .filter(|r| r.layer == layer)
+            .map(|r| r.unit.to_string())
+            .collect();
         if !units.is_empty() {
-            text += &format!("hidden layer {}: {} units taken out ({})\n", layer + 1, units.len(), units.join(", "));
+            text += &format!(
+                "hidden layer {}: {} units taken out ({})\n",
+                layer + 1,
+                units.len(),
+                units.join(", ")
+            );
         }
     }
     for m in &report.merged {
-        text += &format!("hidden layer {}: {} units that always fire became {}\n", m.layer + 1, m.units.len(), m.into);
+        text += &format!(
+            "hidden layer {}: {} units that always fire became {}\n",
+            m.layer + 1,
+            m.units.len(),
+            m.into
+        );
     }
     for c in &report.constants {
         text += &format!("{} is always {}: folded into the biases\n", c.name, c.value);
@@ -423,7 +509,10 @@ mod tests {
 
     #[test]
     fn bars_are_as_long_as_they_say() {
-        assert_eq!((bar(0.0), bar(1.0).chars().count(), bar(0.5).chars().count()), (String::new(), 40, 20));
+        assert_eq!(
+            (bar(0.0), bar(1.0).chars().count(), bar(0.5).chars().count()),
+            (String::new(), 40, 20)
+        );
         assert_eq!(bar(1.0 / 320.0), "\u{258f}");
     }
 
@@ -432,11 +521,19 @@ mod tests {
     fn the_configuration_is_read() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["teapots", "smoke"] {
-            let options = crate::scene::Options { size: Some((48, 48)), seed: None };
+            let options = crate::scene::Options {
+                size: Some((48, 48)),
+                seed: None,
+            };
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
             let scene = Scene::new(&list, crate::oit::Context::default(), [1.0; 3]);
             let facts = facts(&scene).unwrap();
-            let networks: Vec<_> = shipped().unwrap().iter().take(2).map(|m| look_into(&scene, m).unwrap()).collect();
+            let networks: Vec<_> = shipped()
+                .unwrap()
+                .iter()
+                .take(2)
+                .map(|m| look_into(&scene, m).unwrap())
+                .collect();
             let recommendation = recommend(&facts, &networks, None);
             assert!(recommendation.kept && recommendation.model.is_some());
             let path = folder.path().join("profile.toml");

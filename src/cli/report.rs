@@ -28,7 +28,12 @@ impl Report {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         let out = self.out.unwrap_or_else(|| self.folder.join("report.html"));
         may_write(&out, replace)?;
-        let page = build(&self.folder, &Options { most_picture_bytes: self.embed_mib << 20 })?;
+        let page = build(
+            &self.folder,
+            &Options {
+                most_picture_bytes: self.embed_mib << 20,
+            },
+        )?;
         keep_inputs(&page.read.iter().map(PathBuf::as_path).collect::<Vec<&Path>>(), &out)?;
         write_atomically(&out, replace, |w| w.write_all(page.html.as_bytes()))?;
         for problem in &page.problems {
@@ -36,10 +41,17 @@ impl Report {
         }
         if !page.pictures_left_out.is_empty() {
             let count = page.pictures_left_out.len();
-            ui.warn(&format!("warning: {count} pictures are left out, beyond {} MiB; --embed-mib allows more", self.embed_mib));
+            ui.warn(&format!(
+                "warning: {count} pictures are left out, beyond {} MiB; --embed-mib allows more",
+                self.embed_mib
+            ));
         }
         if ui.json() {
-            let missing: Vec<_> = page.missing.iter().map(|m| json!({ "what": m.what, "command": m.command })).collect();
+            let missing: Vec<_> = page
+                .missing
+                .iter()
+                .map(|m| json!({ "what": m.what, "command": m.command }))
+                .collect();
             let problems: Vec<String> = page.problems.iter().map(ToString::to_string).collect();
             ui.print_json(
                 "report",

@@ -96,11 +96,23 @@ fn claim(out: &Path, name: &str, force: bool) -> anyhow::Result<()> {
         Err(error) => return Err(FileError::io(out, "cannot be used as the output folder")(error).into()),
     };
     if holds_something && !out.join(MARKER).exists() {
-        bail!("{}: holds files that 'nmt run' did not make; choose another --out", out.display());
+        bail!(
+            "{}: holds files that 'nmt run' did not make; choose another --out",
+            out.display()
+        );
     }
-    let marker = std::fs::read(out.join(MARKER)).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok());
-    if let Some(other) = marker.as_ref().and_then(|m| m["results"][0]["name"].as_str()).filter(|other| *other != name && !force) {
-        bail!("{}: holds the run of the configuration '{other}'; choose another --out, or pass --force to replace it", out.display());
+    let marker = std::fs::read(out.join(MARKER))
+        .ok()
+        .and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+    if let Some(other) = marker
+        .as_ref()
+        .and_then(|m| m["results"][0]["name"].as_str())
+        .filter(|other| *other != name && !force)
+    {
+        bail!(
+            "{}: holds the run of the configuration '{other}'; choose another --out, or pass --force to replace it",
+            out.display()
+        );
     }
     create_folder(out)?;
     Ok(())
@@ -112,7 +124,9 @@ fn clear(out: &Path, resume: bool) -> Result<(), FileError> {
     for name in ["model.json", "model.losses.csv"].into_iter().chain(checkpoint) {
         let path = out.join(name);
         match std::fs::remove_file(&path) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(FileError::io(&path, "cannot remove an earlier run's")(error)),
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                return Err(FileError::io(&path, "cannot remove an earlier run's")(error));
+            }
             _ => {}
         }
     }
@@ -130,24 +144,51 @@ fn evaluate(config: &Config, mlp: &Mlp) -> anyhow::Result<AbsoluteError> {
     let list = pixels_holding(&synth, Purpose::Evaluation, config.evaluate.pairs, &|_| {});
     let camera = config.synth.camera;
     let depth_range = (mlp.feature_set().moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
-    let answers = Neural::new(mlp.clone()).transmittance(&list, Context { planes: None, depth_range }, &|_| {})?;
-    Ok(transmittance_error(&answers, &mlp.feature_set().target().of_list(&list)))
+    let answers = Neural::new(mlp.clone()).transmittance(
+        &list,
+        Context {
+            planes: None,
+            depth_range,
+        },
+        &|_| {},
+    )?;
+    Ok(transmittance_error(
+        &answers,
+        &mlp.feature_set().target().of_list(&list),
+    ))
 }
 
 fn text(out: &Path, trained: &Trained, error: &AbsoluteError, findings: &[Finding], seconds: f64) -> String {
     let mut text = trained.summary();
-    text += &format!("validation T-MSE   {:.3e}\n", trained.mlp.provenance.validation_loss.unwrap_or(f64::NAN));
-    text += &format!("fresh pixels T-MSE {:.3e} over {} fragments, worst error {:.3}\n\n", error.mse(), error.count(), error.worst());
-    let mut rows = vec![["format", "worst export error", "checks", "file"].map(str::to_owned).to_vec()];
+    text += &format!(
+        "validation T-MSE   {:.3e}\n",
+        trained.mlp.provenance.validation_loss.unwrap_or(f64::NAN)
+    );
+    text += &format!(
+        "fresh pixels T-MSE {:.3e} over {} fragments, worst error {:.3}\n\n",
+        error.mse(),
+        error.count(),
+        error.worst()
+    );
+    let mut rows = vec![
+        ["format", "worst export error", "checks", "file"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
     let mut reasons: Vec<String> = Vec::new();
     for format in Format::DEFAULT {
         let of_format: Vec<&Finding> = findings.iter().filter(|f| f.format == format).collect();
         let worst = of_format
             .iter()
             .filter_map(|f| f.worst_in_distribution())
-            .fold(None, |m: Option<f64>, e| Some(m.map_or(e, |m| if m >= e { m } else { e })));
+            .fold(None, |m: Option<f64>, e| {
+                Some(m.map_or(e, |m| if m >= e { m } else { e }))
+            });
         let count = |wanted: fn(&Status) -> bool| of_format.iter().filter(|f| wanted(&f.status)).count();
-        let (failed, skipped) = (count(|s| matches!(s, Status::Failed(_))), count(|s| matches!(s, Status::Skipped(_))));
+        let (failed, skipped) = (
+            count(|s| matches!(s, Status::Failed(_))),
+            count(|s| matches!(s, Status::Skipped(_))),
+        );
         let mut checks = format!("{} ok", of_format.len() - failed - skipped);
         for (n, word) in [(failed, "FAILED"), (skipped, "skipped")] {
             if n > 0 {
@@ -175,5 +216,9 @@ fn text(out: &Path, trained: &Trained, error: &AbsoluteError, findings: &[Findin
     for reason in reasons {
         text += &format!("{reason}\n");
     }
-    text + &format!("\nmodel {}\ndataset {}\n{seconds:.1} s in all\n", out.join("model.json").display(), out.join("dataset").display())
+    text + &format!(
+        "\nmodel {}\ndataset {}\n{seconds:.1} s in all\n",
+        out.join("model.json").display(),
+        out.join("dataset").display()
+    )
 }

@@ -57,8 +57,15 @@ pub struct ViewOptions {
 impl ViewOptions {
     /// What methods must know besides the fragments.
     pub fn context(&self) -> anyhow::Result<Context> {
-        let planes = self.near.zip(self.far).map(|(near, far)| CameraPlanes::new(near, far)).transpose()?;
-        Ok(Context { planes, depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])) })
+        let planes = self
+            .near
+            .zip(self.far)
+            .map(|(near, far)| CameraPlanes::new(near, far))
+            .transpose()?;
+        Ok(Context {
+            planes,
+            depth_range: self.depth_range.as_deref().map(|r| (r[0], r[1])),
+        })
     }
 
     /// The colour, every channel of which lies in [0, 1].
@@ -82,7 +89,9 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 /// The fragments of a scene by its name, or of a file.
 pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
     let path = Path::new(name);
-    let is_list = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
+    let is_list = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
     if is_list && !BUILT_IN.contains(&name) {
         if options.size.is_some() || options.seed.is_some() {
             bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
@@ -90,7 +99,13 @@ pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> 
         return Ok(scene::read(path)?);
     }
     let scene = scene::open(name)?;
-    Ok(scene::build(&scene, &Options { size: options.size, seed: options.seed })?)
+    Ok(scene::build(
+        &scene,
+        &Options {
+            size: options.size,
+            seed: options.seed,
+        },
+    )?)
 }
 
 impl Scene {
@@ -98,7 +113,13 @@ impl Scene {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         keep_inputs(&[Path::new(&self.scene)], &self.out)?;
         may_write(&self.out, replace)?;
-        let deep = match self.out.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        let deep = match self
+            .out
+            .extension()
+            .and_then(|e| e.to_str())
+            .map(str::to_ascii_lowercase)
+            .as_deref()
+        {
             Some("npz") => false,
             Some("exr") => true,
             _ => return Err(SceneError::UnknownFormat { path: self.out }).context("--out"),

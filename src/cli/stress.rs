@@ -70,8 +70,13 @@ const DEFAULT_METHODS: [&str; 9] = [
 ];
 
 /// Methods drawn in charts beside the networks.
-const DRAWN_METHODS: [&str; 5] =
-    ["moment-power-4:f32", "moment-power-8:f32", "moment-trig-4:f32", "moment-power-4:unorm16", "moment-power-4:f32+own"];
+const DRAWN_METHODS: [&str; 5] = [
+    "moment-power-4:f32",
+    "moment-power-8:f32",
+    "moment-trig-4:f32",
+    "moment-power-4:unorm16",
+    "moment-power-4:f32+own",
+];
 
 /// Files in the folder.
 const RESULTS: &str = "results.json";
@@ -84,7 +89,7 @@ const WIDTH: usize = 140;
 const PIXELS: std::ops::RangeInclusive<usize> = 10..=1_000_000;
 
 /// Fragments of the longest pixels of a chart stay below this.
-const MOST_CHART_FRAGMENTS: usize = 200_000;
+const MAX_CHART_FRAGMENTS: usize = 200_000;
 
 /// Random fragments of a network, in one frame.
 struct Found {
@@ -106,7 +111,8 @@ impl Found {
             (ends, c.single_not_one, "to a single fragment are not 1"),
         ];
         let of = |(promised, count, what): (bool, u64, &str)| {
-            (promised && count > 0).then(|| format!("{}: random: {count} of {} answers {what}", self.network, c.fragments))
+            (promised && count > 0)
+                .then(|| format!("{}: random: {count} of {} answers {what}", self.network, c.fragments))
         };
         kinds.into_iter().filter_map(of).collect()
     }
@@ -121,9 +127,18 @@ impl Stress {
             }
         }
         if !PIXELS.contains(&self.pixels) {
-            bail!("--pixels {}: must be from {} to {}", self.pixels, PIXELS.start(), PIXELS.end());
+            bail!(
+                "--pixels {}: must be from {} to {}",
+                self.pixels,
+                PIXELS.start(),
+                PIXELS.end()
+            );
         }
-        let mlps: Vec<Mlp> = self.model.iter().map(|path| file::load(path)).collect::<Result<_, _>>()?;
+        let mlps: Vec<Mlp> = self
+            .model
+            .iter()
+            .map(|path| file::load(path))
+            .collect::<Result<_, _>>()?;
         let (networks, executions, classic) = (plain(&mlps)?, executions(&mlps)?, self.classic()?);
         let cases = self.cases()?;
         let on_gpu = if self.gpu { self.on_gpu(&mlps)? } else { Vec::new() };
@@ -132,11 +147,24 @@ impl Stress {
         let reports = run(ui, &cases, &subjects);
         let features: Vec<Report> = mlps.iter().map(rows::reports).collect::<Result<Vec<_>, _>>()?.concat();
         let found = self.random(ui, &mlps)?;
-        let biases = if self.bias { bias::points(self.pixels) } else { Vec::new() };
-        let points = if self.out.is_some() { self.sweeps(ui, &mlps)? } else { Vec::new() };
+        let biases = if self.bias {
+            bias::points(self.pixels)
+        } else {
+            Vec::new()
+        };
+        let points = if self.out.is_some() {
+            self.sweeps(ui, &mlps)?
+        } else {
+            Vec::new()
+        };
 
-        let broken: Vec<String> =
-            reports.iter().flatten().chain(&features).flat_map(Report::broken).chain(found.iter().flat_map(Found::broken)).collect();
+        let broken: Vec<String> = reports
+            .iter()
+            .flatten()
+            .chain(&features)
+            .flat_map(Report::broken)
+            .chain(found.iter().flat_map(Found::broken))
+            .collect();
         let results = results(&cases, &reports, &features, &found, &biases, &points);
         if let Some(out) = &self.out {
             create_folder(out)?;
@@ -149,7 +177,9 @@ impl Stress {
         } else {
             let shown = networks.len() + classic.len();
             ui.print(&case_tables(&cases, &reports[..shown]))?;
-            ui.print(&execution_table(&[&reports[..networks.len()], &reports[shown..]].concat()))?;
+            ui.print(&execution_table(
+                &[&reports[..networks.len()], &reports[shown..]].concat(),
+            ))?;
             ui.print(&feature_table(&features))?;
             ui.print(&range_table(&points))?;
             ui.print(&random_table(&found))?;
@@ -164,7 +194,11 @@ impl Stress {
                 ui.print(&format!("{}\n", out.display()))?;
             }
         }
-        Ok(if broken.is_empty() { Verdict::Fine } else { Verdict::CheckFailed })
+        Ok(if broken.is_empty() {
+            Verdict::Fine
+        } else {
+            Verdict::CheckFailed
+        })
     }
 
     fn cases(&self) -> anyhow::Result<Vec<Case>> {
@@ -172,7 +206,10 @@ impl Stress {
         if !self.cases.is_empty() {
             let names: Vec<&str> = cases.iter().map(|c| c.name).collect();
             if let Some(unknown) = self.cases.iter().find(|name| !names.contains(&name.as_str())) {
-                bail!("--cases '{unknown}': there is no such case; there are {}", names.join(", "));
+                bail!(
+                    "--cases '{unknown}': there is no such case; there are {}",
+                    names.join(", ")
+                );
             }
             cases.retain(|c| self.cases.iter().any(|name| name == c.name));
         }
@@ -203,15 +240,22 @@ impl Stress {
         let run = |shader: MethodShader| {
             move |f: &Fragments| {
                 let list = f.list().map_err(|e| e.to_string())?;
-                let weights = gpu::list::weights(gpu, &shader, &list, f.context.planes, f.context.depth_range).map_err(|e| e.to_string())?;
+                let weights = gpu::list::weights(gpu, &shader, &list, f.context.planes, f.context.depth_range)
+                    .map_err(|e| e.to_string())?;
                 Ok(weights.into_iter().map(f64::from).collect())
             }
         };
         let mut subjects = Vec::new();
-        for mlp in mlps.iter().filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended) {
+        for mlp in mlps
+            .iter()
+            .filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended)
+        {
             let promise = Subject::network(mlp, Execution::default())?.promise;
             let shader = MethodShader::neural(mlp, Format::Wgsl)?;
-            subjects.push(Subject::new(format!("{} @ {}", shader.name, gpu.name()), promise, run(shader)).with_network_as_double(mlp));
+            subjects.push(
+                Subject::new(format!("{} @ {}", shader.name, gpu.name()), promise, run(shader))
+                    .with_network_as_double(mlp),
+            );
         }
         let mut names: Vec<String> = Vec::new();
         for name in &self.methods {
@@ -221,9 +265,18 @@ impl Stress {
             }
         }
         for name in names {
-            let Some(shader) = MethodShader::classic(&name) else { continue };
-            let promise = if name.ends_with("+own") { Promise::Ends } else { Promise::None };
-            subjects.push(Subject::new(format!("{name} @ {}", gpu.name()), promise, run(shader)).with_method_as_double(parse(&name)?));
+            let Some(shader) = MethodShader::classic(&name) else {
+                continue;
+            };
+            let promise = if name.ends_with("+own") {
+                Promise::Ends
+            } else {
+                Promise::None
+            };
+            subjects.push(
+                Subject::new(format!("{name} @ {}", gpu.name()), promise, run(shader))
+                    .with_method_as_double(parse(&name)?),
+            );
         }
         Ok(subjects)
     }
@@ -235,15 +288,33 @@ impl Stress {
         }
         for mlp in mlps {
             let plain = Subject::network(mlp, Execution::default())?;
-            let frames = if plain.promise == Promise::Ends { &[MomentFrame::Scene, MomentFrame::Pixel][..] } else { &[MomentFrame::Scene] };
+            let frames = if plain.promise == Promise::Ends {
+                &[MomentFrame::Scene, MomentFrame::Pixel][..]
+            } else {
+                &[MomentFrame::Scene]
+            };
             for &frame in frames {
-                let subject = Subject::network(mlp, Execution { frame, ..Execution::default() })?;
+                let subject = Subject::network(
+                    mlp,
+                    Execution {
+                        frame,
+                        ..Execution::default()
+                    },
+                )?;
                 let progress = ui.progress("random", self.random);
                 let start = Instant::now();
-                let counts = hunt(mlp, frame, self.random, self.seed, &|n| progress.set(n, subject.name.as_str()))?;
+                let counts = hunt(mlp, frame, self.random, self.seed, &|n| {
+                    progress.set(n, subject.name.as_str())
+                })?;
                 progress.finish();
                 let seconds = start.elapsed().as_secs_f64();
-                found.push(Found { network: subject.name, frame, counts, promise: subject.promise, seconds });
+                found.push(Found {
+                    network: subject.name,
+                    frame,
+                    counts,
+                    promise: subject.promise,
+                    seconds,
+                });
             }
         }
         Ok(found)
@@ -251,7 +322,10 @@ impl Stress {
 
     /// Every place of the three charts.
     fn sweeps(&self, ui: &Ui, mlps: &[Mlp]) -> anyhow::Result<Vec<Point>> {
-        let prepass = Execution { frame: MomentFrame::Pixel, ..Execution::default() };
+        let prepass = Execution {
+            frame: MomentFrame::Pixel,
+            ..Execution::default()
+        };
         let mut subjects = Vec::new();
         for mlp in mlps {
             subjects.push(Subject::network(mlp, Execution::default())?);
@@ -259,7 +333,9 @@ impl Stress {
                 subjects.push(Subject::network(mlp, prepass)?);
             }
         }
-        let recentred = mlps.iter().find(|mlp| Subject::network(mlp, Execution::default()).is_ok_and(|s| s.promise == Promise::Ends));
+        let recentred = mlps
+            .iter()
+            .find(|mlp| Subject::network(mlp, Execution::default()).is_ok_and(|s| s.promise == Promise::Ends));
         let first = recentred.filter(|mlp| mlp.feature_set().moments() == 4);
         subjects.extend(first.map(|mlp| TwoMoments::Beta.subject(mlp)));
         subjects.extend(recentred.map(|mlp| TwoMoments::Bounds.subject(mlp)));
@@ -276,18 +352,31 @@ impl Stress {
         };
         for half in sweep::HALF_RANGES {
             step("half-range");
-            points.extend(sweep::points("half_range", half, &sweep::of_half_range(half, self.pixels), &subjects));
+            points.extend(sweep::points(
+                "half_range",
+                half,
+                &sweep::of_half_range(half, self.pixels),
+                &subjects,
+            ));
         }
         for n in sweep::COUNTS {
             step("number of fragments");
-            let pixels = self.pixels.min(MOST_CHART_FRAGMENTS / n as usize).max(10);
-            points.extend(sweep::points("fragments_per_pixel", n.into(), &sweep::of_count(n, pixels), &subjects));
+            let pixels = self.pixels.min(MAX_CHART_FRAGMENTS / n as usize).max(10);
+            points.extend(sweep::points(
+                "fragments_per_pixel",
+                n.into(),
+                &sweep::of_count(n, pixels),
+                &subjects,
+            ));
         }
         let usual = sweep::usual(self.pixels);
         for digits in sweep::DIGITS {
             step("digits");
             let mut subjects = Vec::new();
-            for mlp in mlps.iter().filter(|mlp| Subject::network(mlp, Execution::default()).is_ok_and(|s| s.promise == Promise::Ends)) {
+            for mlp in mlps
+                .iter()
+                .filter(|mlp| Subject::network(mlp, Execution::default()).is_ok_and(|s| s.promise == Promise::Ends))
+            {
                 subjects.extend([MomentFrame::Scene, MomentFrame::Pixel].map(|frame| with_digits(mlp, digits, frame)));
             }
             subjects.extend(Classic::power_with_digits(digits));
@@ -300,20 +389,27 @@ impl Stress {
 
 /// A classic method by its name, with what it would be without the rounding of its storage.
 fn classic(name: &str) -> anyhow::Result<Subject<'static>> {
-    let plain = [":f32", ":unorm16", ":nlqm"].iter().fold(name.to_owned(), |name, suffix| name.replace(suffix, ""));
+    let plain = [":f32", ":unorm16", ":nlqm"]
+        .iter()
+        .fold(name.to_owned(), |name, suffix| name.replace(suffix, ""));
     let double: Option<Box<dyn Method>> = if plain == name { None } else { Some(parse(&plain)?) };
     Ok(Subject::method(parse(name)?, double))
 }
 
 fn plain(mlps: &[Mlp]) -> anyhow::Result<Vec<Subject<'static>>> {
-    mlps.iter().map(|mlp| Ok(Subject::network(mlp, Execution::default())?)).collect()
+    mlps.iter()
+        .map(|mlp| Ok(Subject::network(mlp, Execution::default())?))
+        .collect()
 }
 
 /// Networks in all ways but the usual one.
 fn executions(mlps: &[Mlp]) -> anyhow::Result<Vec<Subject<'static>>> {
     let mut subjects = Vec::new();
     for mlp in mlps {
-        for execution in Execution::all(mlp.feature_set()).into_iter().filter(|e| *e != Execution::default()) {
+        for execution in Execution::all(mlp.feature_set())
+            .into_iter()
+            .filter(|e| *e != Execution::default())
+        {
             subjects.push(Subject::network(mlp, execution)?);
         }
     }
@@ -337,7 +433,14 @@ fn run(ui: &Ui, cases: &[Case], subjects: &[&Subject<'_>]) -> Vec<Vec<Report>> {
     reports
 }
 
-fn results(cases: &[Case], reports: &[Vec<Report>], features: &[Report], found: &[Found], biases: &[BiasPoint], points: &[Point]) -> Vec<Value> {
+fn results(
+    cases: &[Case],
+    reports: &[Vec<Report>],
+    features: &[Report],
+    found: &[Found],
+    biases: &[BiasPoint],
+    points: &[Point],
+) -> Vec<Value> {
     let kind = |name: &str, mut value: Value| {
         if let Some(object) = value.as_object_mut() {
             object.insert("kind".to_owned(), name.into());
@@ -346,12 +449,26 @@ fn results(cases: &[Case], reports: &[Vec<Report>], features: &[Report], found: 
     };
     let plain = |value: Result<Value, serde_json::Error>| value.expect("results are plain data");
     let mut results = Vec::new();
-    let what = |name: &str| cases.iter().map(|c| (c.name, c.what)).chain(rows::KINDS).find(|c| c.0 == name).map(|c| c.1);
-    results.extend(reports.iter().flatten().map(|r| ("case", r)).chain(features.iter().map(|r| ("features", r))).map(|(name, r)| {
-        let mut value = plain(serde_json::to_value(r));
-        value["what"] = json!(what(&r.case));
-        kind(name, value)
-    }));
+    let what = |name: &str| {
+        cases
+            .iter()
+            .map(|c| (c.name, c.what))
+            .chain(rows::KINDS)
+            .find(|c| c.0 == name)
+            .map(|c| c.1)
+    };
+    results.extend(
+        reports
+            .iter()
+            .flatten()
+            .map(|r| ("case", r))
+            .chain(features.iter().map(|r| ("features", r)))
+            .map(|(name, r)| {
+                let mut value = plain(serde_json::to_value(r));
+                value["what"] = json!(what(&r.case));
+                kind(name, value)
+            }),
+    );
     results.extend(found.iter().map(|f| {
         let mut value = plain(serde_json::to_value(f.counts));
         value["method"] = json!(f.network);
@@ -360,7 +477,11 @@ fn results(cases: &[Case], reports: &[Vec<Report>], features: &[Report], found: 
         value["fragments_per_second"] = json!(f.counts.fragments as f64 / f.seconds);
         kind("random", value)
     }));
-    results.extend(biases.iter().map(|p| kind("moment_bias", plain(serde_json::to_value(p)))));
+    results.extend(
+        biases
+            .iter()
+            .map(|p| kind("moment_bias", plain(serde_json::to_value(p)))),
+    );
     results.extend(points.iter().map(|p| kind("sweep", plain(serde_json::to_value(p)))));
     results
 }
@@ -376,7 +497,11 @@ fn short(x: Option<f64>) -> String {
 }
 
 fn percent(share: f64) -> String {
-    if share < 1e-3 { "<0.1%".to_owned() } else { format!("{:.1}%", 100.0 * share) }
+    if share < 1e-3 {
+        "<0.1%".to_owned()
+    } else {
+        format!("{:.1}%", 100.0 * share)
+    }
 }
 
 /// Root mean square and worst error, and a mark for what is not finite or out of range.
@@ -400,9 +525,17 @@ fn cell(report: &Report) -> String {
 
 /// Cases by methods, as many methods side by side as fit.
 fn case_tables(cases: &[Case], reports: &[Vec<Report>]) -> String {
-    let mut columns: Vec<Vec<String>> = vec![std::iter::once("case".to_owned()).chain(cases.iter().map(|c| c.name.to_owned())).collect()];
+    let mut columns: Vec<Vec<String>> = vec![
+        std::iter::once("case".to_owned())
+            .chain(cases.iter().map(|c| c.name.to_owned()))
+            .collect(),
+    ];
     for of_subject in reports.iter().filter(|r| !r.is_empty()) {
-        columns.push(std::iter::once(of_subject[0].method.clone()).chain(of_subject.iter().map(cell)).collect());
+        columns.push(
+            std::iter::once(of_subject[0].method.clone())
+                .chain(of_subject.iter().map(cell))
+                .collect(),
+        );
     }
     let width = |column: &Vec<String>| column.iter().map(|t| t.chars().count()).max().unwrap_or(0) + 2;
     let mut text =
@@ -417,12 +550,17 @@ fn case_tables(cases: &[Case], reports: &[Vec<Report>]) -> String {
             end += 1;
         }
         let block: Vec<&Vec<String>> = std::iter::once(&columns[0]).chain(&columns[next..end]).collect();
-        let rows: Vec<Vec<String>> = (0..=cases.len()).map(|i| block.iter().map(|c| c[i].clone()).collect()).collect();
+        let rows: Vec<Vec<String>> = (0..=cases.len())
+            .map(|i| block.iter().map(|c| c[i].clone()).collect())
+            .collect();
         text += &table(&rows);
         text += "\n";
         next = end;
     }
-    let what: Vec<Vec<String>> = std::iter::once(["case", "what it is"]).chain(cases.iter().map(|c| [c.name, c.what])).map(cells).collect();
+    let what: Vec<Vec<String>> = std::iter::once(["case", "what it is"])
+        .chain(cases.iter().map(|c| [c.name, c.what]))
+        .map(cells)
+        .collect();
     text + &table(&what) + "\n"
 }
 
@@ -435,32 +573,66 @@ fn feature_table(reports: &[Report]) -> String {
     if reports.is_empty() {
         return String::new();
     }
-    let mut rows = vec![cells(["features alone", "rows", "not finite", "out of range", "worst against f64", "rms against f64"])];
+    let mut rows = vec![cells([
+        "features alone",
+        "rows",
+        "not finite",
+        "out of range",
+        "worst against f64",
+        "rms against f64",
+    ])];
     for r in reports {
         let counts = [r.fragments, r.nonfinite, r.out_of_range].map(|n| n.to_string());
         let errors = [short(r.worst_rounding), short(r.rounding_mse.map(f64::sqrt))];
-        rows.push([vec![format!("{}: {}", r.method, r.case)], counts.to_vec(), errors.to_vec()].concat());
+        rows.push(
+            [
+                vec![format!("{}: {}", r.method, r.case)],
+                counts.to_vec(),
+                errors.to_vec(),
+            ]
+            .concat(),
+        );
     }
     format!("{}\n", table(&rows))
 }
 
 /// Cases whose errors the ways of running a network are compared by.
-const TELLING: [&str; 6] = ["usual", "thin", "far-from-origin", "many-faint", "extreme-absorbance", "window-depth"];
+const TELLING: [&str; 6] = [
+    "usual",
+    "thin",
+    "far-from-origin",
+    "many-faint",
+    "extreme-absorbance",
+    "window-depth",
+];
 
 /// Ways of running networks, a row each.
 fn execution_table(reports: &[Vec<Report>]) -> String {
-    let mut rows = vec![vec!["network".to_owned(), "not finite".to_owned(), "out of range".to_owned(), "pair, worst".to_owned()]];
+    let mut rows = vec![vec![
+        "network".to_owned(),
+        "not finite".to_owned(),
+        "out of range".to_owned(),
+        "pair, worst".to_owned(),
+    ]];
     rows[0].extend(TELLING.map(str::to_owned));
     rows[0].extend(["order spread", "rises"].map(str::to_owned));
     for of_subject in reports.iter().filter(|r| !r.is_empty()) {
         let sum = |of: fn(&Report) -> u64| of_subject.iter().map(of).sum::<u64>();
         let case = |name: &str| of_subject.iter().find(|r| r.case == name && r.refused.is_none());
-        let mut row = vec![of_subject[0].method.clone(), sum(|r| r.nonfinite).to_string(), sum(|r| r.out_of_range).to_string()];
+        let mut row = vec![
+            of_subject[0].method.clone(),
+            sum(|r| r.nonfinite).to_string(),
+            sum(|r| r.out_of_range).to_string(),
+        ];
         row.push(short(case("pair").and_then(|r| r.worst_error)));
         row.extend(TELLING.map(|name| {
-            case(name)
-                .and_then(|r| r.mse)
-                .map_or("-".to_owned(), |mse| if mse < 100.0 { format!("{:.4}", mse.sqrt()) } else { short(Some(mse.sqrt())) })
+            case(name).and_then(|r| r.mse).map_or("-".to_owned(), |mse| {
+                if mse < 100.0 {
+                    format!("{:.4}", mse.sqrt())
+                } else {
+                    short(Some(mse.sqrt()))
+                }
+            })
         }));
         row.push(short(of_subject.iter().map(|r| r.order_spread).reduce(f64::max)));
         row.push(percent(sum(|r| r.rises) as f64 / sum(|r| r.fragments).max(1) as f64));
@@ -479,32 +651,70 @@ fn execution_table(reports: &[Vec<Report>]) -> String {
 /// What rounding adds along the half-range.
 fn range_table(points: &[Point]) -> String {
     let of_range: Vec<&Point> = points.iter().filter(|p| p.sweep == "half_range").collect();
-    let Some(first) = of_range.first() else { return String::new() };
+    let Some(first) = of_range.first() else {
+        return String::new();
+    };
     let methods: Vec<&Point> = of_range.iter().copied().take_while(|p| p.x == first.x).collect();
-    let mut rows = vec![std::iter::once("half-range".to_owned()).chain(methods.iter().map(|p| p.method.clone())).collect::<Vec<_>>()];
+    let mut rows = vec![
+        std::iter::once("half-range".to_owned())
+            .chain(methods.iter().map(|p| p.method.clone()))
+            .collect::<Vec<_>>(),
+    ];
     for line in of_range.chunks(methods.len()) {
         let cell = |p: &&Point| {
             let mse = p.mse.map_or("-".to_owned(), |mse| format!("{mse:.2e}"));
-            let added = p.added().map_or(String::new(), |added| format!(" {:+.0}%", 100.0 * added));
-            let nan = if p.nonfinite > 0 { format!(" NaN {}", percent(p.nonfinite as f64 / p.fragments as f64)) } else { String::new() };
+            let added = p
+                .added()
+                .map_or(String::new(), |added| format!(" {:+.0}%", 100.0 * added));
+            let nan = if p.nonfinite > 0 {
+                format!(" NaN {}", percent(p.nonfinite as f64 / p.fragments as f64))
+            } else {
+                String::new()
+            };
             format!("{mse}{added}{nan}")
         };
-        rows.push(std::iter::once(format!("{}", line[0].x)).chain(line.iter().map(cell)).collect());
+        rows.push(
+            std::iter::once(format!("{}", line[0].x))
+                .chain(line.iter().map(cell))
+                .collect(),
+        );
     }
     // Methods in rows where they are many.
-    let turned: Vec<Vec<String>> = (0..rows[0].len()).map(|i| rows.iter().step_by(3).map(|row| row[i].clone()).collect()).collect();
-    format!("T-MSE by half-range of the pixel in moment depth, and what rounding adds to it\n\n{}\n", table(&turned))
+    let turned: Vec<Vec<String>> = (0..rows[0].len())
+        .map(|i| rows.iter().step_by(3).map(|row| row[i].clone()).collect())
+        .collect();
+    format!(
+        "T-MSE by half-range of the pixel in moment depth, and what rounding adds to it\n\n{}\n",
+        table(&turned)
+    )
 }
 
 fn random_table(found: &[Found]) -> String {
     if found.is_empty() {
         return String::new();
     }
-    let head = ["random fragments", "fragments", "asked", "not finite", "out of range", "nearest not 1", "single not 1", "M/s"];
+    let head = [
+        "random fragments",
+        "fragments",
+        "asked",
+        "not finite",
+        "out of range",
+        "nearest not 1",
+        "single not 1",
+        "M/s",
+    ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for f in found {
         let c = &f.counts;
-        let counts = [c.fragments, c.asked, c.nonfinite, c.out_of_range, c.nearest_not_one, c.single_not_one].map(|n| n.to_string());
+        let counts = [
+            c.fragments,
+            c.asked,
+            c.nonfinite,
+            c.out_of_range,
+            c.nearest_not_one,
+            c.single_not_one,
+        ]
+        .map(|n| n.to_string());
         let rate = format!("{:.1}", c.fragments as f64 / f.seconds / 1e6);
         rows.push([vec![f.network.clone()], counts.to_vec(), vec![rate]].concat());
     }
@@ -528,13 +738,27 @@ fn bias_table(biases: &[BiasPoint]) -> String {
     }
     strengths.sort_by(f64::total_cmp);
     let best = bias::recommended(biases);
-    let head = columns.iter().map(|(m, storage)| format!("moment-power-{m}:{}", storage.name()));
-    let mut rows = vec![std::iter::once("moment_bias".to_owned()).chain(head).collect::<Vec<_>>()];
+    let head = columns
+        .iter()
+        .map(|(m, storage)| format!("moment-power-{m}:{}", storage.name()));
+    let mut rows = vec![
+        std::iter::once("moment_bias".to_owned())
+            .chain(head)
+            .collect::<Vec<_>>(),
+    ];
     for strength in strengths {
         let cell = |&(moments, storage): &(usize, Kept)| {
-            let Some(p) = biases.iter().find(|p| (p.moments, p.storage, p.moment_bias) == (moments, storage, strength)) else { return String::new() };
+            let Some(p) = biases
+                .iter()
+                .find(|p| (p.moments, p.storage, p.moment_bias) == (moments, storage, strength))
+            else {
+                return String::new();
+            };
             let mut text = p.mse.map_or("-".to_owned(), |mse| format!("{mse:.2e}"));
-            for (name, count, of) in [("NaN", p.nonfinite, p.fragments), ("single", p.single_nonfinite, p.singles)] {
+            for (name, count, of) in [
+                ("NaN", p.nonfinite, p.fragments),
+                ("single", p.single_nonfinite, p.singles),
+            ] {
                 if count > 0 {
                     text += &format!(" {name} {}", percent(count as f64 / of as f64));
                 }
@@ -543,7 +767,11 @@ fn bias_table(biases: &[BiasPoint]) -> String {
             text += if best.contains(p) { " *" } else { "" };
             text
         };
-        rows.push(std::iter::once(format!("{strength:e}")).chain(columns.iter().map(cell)).collect());
+        rows.push(
+            std::iter::once(format!("{strength:e}"))
+                .chain(columns.iter().map(cell))
+                .collect(),
+        );
     }
     format!(
         "T-MSE of the finite answers by moment_bias; NaN, single: shares of answers without a number on random pixels, on single fragments; p: published; *: least \
@@ -555,18 +783,39 @@ fn bias_table(biases: &[BiasPoint]) -> String {
 /// Charts of the three sweeps.
 fn charts(out: &Path, replace: Replace, points: &[Point]) -> anyhow::Result<()> {
     let labels = [
-        ("half_range", "Error of transmittance against the pixel's range", "half of the pixel's range in moment depth", true),
-        ("fragments_per_pixel", "Error of transmittance against depth complexity", "fragments in the pixel", true),
-        ("storage_digits", "Error of transmittance against the precision of stored moments", "significant binary digits", false),
+        (
+            "half_range",
+            "Error of transmittance against the pixel's range",
+            "half of the pixel's range in moment depth",
+            true,
+        ),
+        (
+            "fragments_per_pixel",
+            "Error of transmittance against depth complexity",
+            "fragments in the pixel",
+            true,
+        ),
+        (
+            "storage_digits",
+            "Error of transmittance against the precision of stored moments",
+            "significant binary digits",
+            false,
+        ),
     ];
     for ((sweep, title, x, log_x), name) in labels.into_iter().zip(CHARTS) {
         let mut lines: Vec<Line> = Vec::new();
         for p in points.iter().filter(|p| p.sweep == sweep) {
-            let Some(mse) = p.mse.filter(|&mse| mse > 0.0) else { continue };
+            let Some(mse) = p.mse.filter(|&mse| mse > 0.0) else {
+                continue;
+            };
             let line = match lines.iter_mut().find(|l| l.name == p.method) {
                 Some(line) => line,
                 None => {
-                    lines.push(Line { name: p.method.clone(), points: Vec::new(), marked: Vec::new() });
+                    lines.push(Line {
+                        name: p.method.clone(),
+                        points: Vec::new(),
+                        marked: Vec::new(),
+                    });
                     lines.last_mut().expect("one was pushed")
                 }
             };
@@ -575,7 +824,13 @@ fn charts(out: &Path, replace: Replace, points: &[Point]) -> anyhow::Result<()> 
                 line.marked.push((p.x, mse));
             }
         }
-        let chart = Chart { title, x, y: "mean squared error of T (crosses: some answers are NaN)", log_x, lines: &lines };
+        let chart = Chart {
+            title,
+            x,
+            y: "mean squared error of T (crosses: some answers are NaN)",
+            log_x,
+            lines: &lines,
+        };
         if let Some(svg) = chart.svg().map_err(anyhow::Error::msg)? {
             write_atomically(&out.join(name), replace, |w| w.write_all(svg.as_bytes()))?;
         }

@@ -25,7 +25,10 @@ impl Ui {
 
     /// The same, without results on stdout: for stages of a larger command.
     pub fn stage(&self) -> Self {
-        Self { quiet: self.quiet, json: false }
+        Self {
+            quiet: self.quiet,
+            json: false,
+        }
     }
 
     /// A warning or a note on stderr; nothing under `--quiet`.
@@ -38,17 +41,30 @@ impl Ui {
     /// Progress over `length` units: a bar on a terminal, a line now and then elsewhere, nothing under `--quiet`.
     pub fn progress(&self, name: &'static str, length: u64) -> Progress {
         let terminal = std::io::stderr().is_terminal();
-        let target = if self.quiet || !terminal { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let target = if self.quiet || !terminal {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
         let bar = ProgressBar::with_draw_target(Some(length), target);
-        let style = ProgressStyle::with_template("{prefix:<10} [{bar:32}] {pos}/{len} {msg} (ETA {eta})").expect("a valid template");
+        let style = ProgressStyle::with_template("{prefix:<10} [{bar:32}] {pos}/{len} {msg} (ETA {eta})")
+            .expect("a valid template");
         bar.set_style(style.progress_chars("=> "));
         bar.set_prefix(name);
-        Progress { bar, name, lines: !self.quiet && !terminal, last_line: Mutex::new(Instant::now()) }
+        Progress {
+            bar,
+            name,
+            lines: !self.quiet && !terminal,
+            last_line: Mutex::new(Instant::now()),
+        }
     }
 
     /// Prints the one JSON object of a command.
     pub fn print_json(&self, command: &str, results: Vec<Value>) -> anyhow::Result<()> {
-        self.print(&format!("{}\n", serde_json::to_string_pretty(&report(command, results))?))
+        self.print(&format!(
+            "{}\n",
+            serde_json::to_string_pretty(&report(command, results))?
+        ))
     }
 
     /// Prints results.
@@ -95,9 +111,11 @@ impl Progress {
 
 /// The machine, as far as it matters for a measurement.
 pub fn machine() -> Value {
-    let cpu = std::fs::read_to_string("/proc/cpuinfo")
-        .ok()
-        .and_then(|text| text.lines().find_map(|l| l.strip_prefix("model name")).map(|l| l.trim_start_matches([' ', '\t', ':']).to_owned()));
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        text.lines()
+            .find_map(|l| l.strip_prefix("model name"))
+            .map(|l| l.trim_start_matches([' ', '\t', ':']).to_owned())
+    });
     json!({
         "cpu": cpu,
         "threads": std::thread::available_parallelism().map_or(1, usize::from),
@@ -109,9 +127,21 @@ pub fn machine() -> Value {
 /// Rows as text in aligned columns; the first row is the head.
 pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(|c| rows.iter().filter_map(|r| r.get(c)).map(|t| t.chars().count()).max().unwrap_or(0)).collect();
+    let widths: Vec<usize> = (0..columns)
+        .map(|c| {
+            rows.iter()
+                .filter_map(|r| r.get(c))
+                .map(|t| t.chars().count())
+                .max()
+                .unwrap_or(0)
+        })
+        .collect();
     let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().zip(&widths).map(|(text, &width)| format!("{text:<width$}")).collect();
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .map(|(text, &width)| format!("{text:<width$}"))
+            .collect();
         format!("{}\n", cells.join("  ").trim_end())
     };
     let mut text = String::new();

@@ -18,7 +18,11 @@ pub struct Blocks {
 impl Blocks {
     /// `rows` rows of `width` features, all of them zeros that weigh nothing.
     pub fn zeros(width: usize, rows: usize) -> Self {
-        Self { width, rows, data: vec![Lanes::ZERO; rows.div_ceil(LANES) * (width + 2)] }
+        Self {
+            width,
+            rows,
+            data: vec![Lanes::ZERO; rows.div_ceil(LANES) * (width + 2)],
+        }
     }
 
     /// Rows in the given order.
@@ -26,7 +30,9 @@ impl Blocks {
     /// # Panics
     /// If an index is out of range.
     pub fn of(rows: &Rows, order: &[u32]) -> Self {
-        Self::from_fn(rows.feature_set.width(), 0, order.len(), |at| rows.row(order[at] as usize))
+        Self::from_fn(rows.feature_set.width(), 0, order.len(), |at| {
+            rows.row(order[at] as usize)
+        })
     }
 
     /// `lead` rows that weigh nothing, then `rows` rows as `row` gives them for 0, 1, ..; on all cores.
@@ -36,18 +42,26 @@ impl Blocks {
     pub fn from_fn<'a>(width: usize, lead: usize, rows: usize, row: impl Fn(usize) -> Row<'a> + Sync) -> Self {
         let mut blocks = Self::zeros(width, lead + rows);
         let columns = blocks.columns();
-        blocks.data.par_chunks_mut(TASK * columns).enumerate().for_each(|(task, data)| {
-            for (index, block) in data.chunks_exact_mut(columns).enumerate() {
-                let start = (task * TASK + index) * LANES;
-                for at in start.max(lead)..(start + LANES).min(lead + rows) {
-                    let Row { features, target, weight } = row(at - lead);
-                    assert_eq!(features.len(), width, "rows of the same width");
-                    for (column, value) in block.iter_mut().zip(features.iter().copied().chain([target, weight])) {
-                        column.0[at - start] = value;
+        blocks
+            .data
+            .par_chunks_mut(TASK * columns)
+            .enumerate()
+            .for_each(|(task, data)| {
+                for (index, block) in data.chunks_exact_mut(columns).enumerate() {
+                    let start = (task * TASK + index) * LANES;
+                    for at in start.max(lead)..(start + LANES).min(lead + rows) {
+                        let Row {
+                            features,
+                            target,
+                            weight,
+                        } = row(at - lead);
+                        assert_eq!(features.len(), width, "rows of the same width");
+                        for (column, value) in block.iter_mut().zip(features.iter().copied().chain([target, weight])) {
+                            column.0[at - start] = value;
+                        }
                     }
                 }
-            }
-        });
+            });
         blocks
     }
 
@@ -58,21 +72,31 @@ impl Blocks {
     pub fn splice(&mut self, start: usize, other: &Self) {
         let (lead, columns) = (start % LANES, self.columns());
         let end = start - lead + other.rows;
-        assert!(self.width == other.width && end <= self.rows, "rows of the same width, in places of these blocks");
+        assert!(
+            self.width == other.width && end <= self.rows,
+            "rows of the same width, in places of these blocks"
+        );
         let data = &mut self.data[start / LANES * columns..][..other.data.len()];
-        data.par_chunks_mut(TASK * columns).zip(other.data.par_chunks(TASK * columns)).enumerate().for_each(|(task, (data, other))| {
-            for (index, (block, from)) in data.chunks_exact_mut(columns).zip(other.chunks_exact(columns)).enumerate() {
-                let first = start - lead + (task * TASK + index) * LANES;
-                let lanes = start.saturating_sub(first)..(end - first).min(LANES);
-                if lanes.len() == LANES {
-                    block.copy_from_slice(from);
-                } else {
-                    for (column, from) in block.iter_mut().zip(from) {
-                        column.0[lanes.clone()].copy_from_slice(&from.0[lanes.clone()]);
+        data.par_chunks_mut(TASK * columns)
+            .zip(other.data.par_chunks(TASK * columns))
+            .enumerate()
+            .for_each(|(task, (data, other))| {
+                for (index, (block, from)) in data
+                    .chunks_exact_mut(columns)
+                    .zip(other.chunks_exact(columns))
+                    .enumerate()
+                {
+                    let first = start - lead + (task * TASK + index) * LANES;
+                    let lanes = start.saturating_sub(first)..(end - first).min(LANES);
+                    if lanes.len() == LANES {
+                        block.copy_from_slice(from);
+                    } else {
+                        for (column, from) in block.iter_mut().zip(from) {
+                            column.0[lanes.clone()].copy_from_slice(&from.0[lanes.clone()]);
+                        }
                     }
                 }
-            }
-        });
+            });
     }
 
     /// Features of a row, W.
@@ -163,7 +187,10 @@ mod tests {
         let blocks = Blocks::of(&rows, &order);
         assert_eq!((blocks.len(), blocks.rows(), blocks.columns()), (3, n, 9));
         let all: Vec<u32> = (0..3).collect();
-        let batch = Batch { blocks: &blocks, order: &all };
+        let batch = Batch {
+            blocks: &blocks,
+            order: &all,
+        };
         let (features, targets, weights) = batch.to_rows();
         assert_eq!((batch.rows(), features.len()), (n, 7 * n));
         assert_eq!(features[..7], rows.features[7 * 36..]);
@@ -187,7 +214,19 @@ mod tests {
         let n = 20_000;
         let order: Vec<u32> = (0..n as u32).collect();
         let old = rows(n, 0);
-        for (start, count) in [(0, 16), (0, 5), (3, 4), (3, 13), (15, 2), (16, 16), (37, 12_345), (n - 1, 1), (0, n), (7, n - 7), (40, 0)] {
+        for (start, count) in [
+            (0, 16),
+            (0, 5),
+            (3, 4),
+            (3, 13),
+            (15, 2),
+            (16, 16),
+            (37, 12_345),
+            (n - 1, 1),
+            (0, n),
+            (7, n - 7),
+            (40, 0),
+        ] {
             let fresh = rows(count, 50_000);
             let mut blocks = Blocks::of(&old, &order);
             blocks.splice(start, &Blocks::from_fn(3, start % LANES, count, |i| fresh.row(i)));

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const SPLIT_PURPOSE: u64 = 0x1004;
 
 /// Most rows that a dataset may be configured to have.
-pub const MOST_PAIRS: u64 = 1 << 30;
+pub const MAX_PAIRS: u64 = 1 << 30;
 
 /// How large a dataset is and what its columns are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,7 +59,7 @@ pub enum Weighting {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DatasetError {
     /// The number of rows is 0 or absurd.
-    #[error("dataset.{field} = {value}: must be from 1 to {MOST_PAIRS}")]
+    #[error("dataset.{field} = {value}: must be from 1 to {MAX_PAIRS}")]
     Size {
         /// The field.
         field: &'static str,
@@ -121,8 +121,11 @@ impl DatasetConfig {
     /// # Errors
     /// [`DatasetError::Size`].
     pub fn validate(&self) -> Result<(), DatasetError> {
-        for (field, value) in [("training_pairs", self.training_pairs), ("validation_pairs", self.validation_pairs)] {
-            if !(1..=MOST_PAIRS).contains(&value) {
+        for (field, value) in [
+            ("training_pairs", self.training_pairs),
+            ("validation_pairs", self.validation_pairs),
+        ] {
+            if !(1..=MAX_PAIRS).contains(&value) {
                 return Err(DatasetError::Size { field, value });
             }
         }
@@ -140,11 +143,29 @@ impl DatasetConfig {
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
     let Look { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
-    let asked = |values: &mut dyn Iterator<Item = f32>| known.iter().zip(values).filter(|(k, _)| k.is_nan()).map(|(_, v)| v).collect();
+    let asked = |values: &mut dyn Iterator<Item = f32>| {
+        known
+            .iter()
+            .zip(values)
+            .filter(|(k, _)| k.is_nan())
+            .map(|(_, v)| v)
+            .collect()
+    };
     let targets = asked(&mut targets.into_iter().map(|t| t as f32));
     let all_pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
-    let pixels = known.iter().zip(all_pixels).filter(|(k, _)| k.is_nan()).map(|(_, p)| p).collect();
-    Ok(Rows { feature_set: extractor.set(), features, targets, weights: Vec::new(), pixels })
+    let pixels = known
+        .iter()
+        .zip(all_pixels)
+        .filter(|(k, _)| k.is_nan())
+        .map(|(_, p)| p)
+        .collect();
+    Ok(Rows {
+        feature_set: extractor.set(),
+        features,
+        targets,
+        weights: Vec::new(),
+        pixels,
+    })
 }
 
 /// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how many there are so far.
@@ -156,21 +177,32 @@ pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dy
         let chunk = synth.pixels(purpose, offsets.len() as u64 - 1, CHUNK);
         let before = view_z.len() as u64;
         // Of the last chunk only the pixels up to the one that reaches the number.
-        let taken = chunk.offsets().partition_point(|&end| before + end < pairs).min(chunk.pixels());
+        let taken = chunk
+            .offsets()
+            .partition_point(|&end| before + end < pairs)
+            .min(chunk.pixels());
         let fragments = chunk.offsets()[taken] as usize;
         offsets.extend(chunk.offsets()[1..=taken].iter().map(|end| before + end));
         view_z.extend_from_slice(&chunk.view_z()[..fragments]);
         alpha.extend_from_slice(&chunk.alpha()[..fragments]);
         progress(pairs.min(view_z.len() as u64));
     }
-    FragmentList::new(offsets, view_z, alpha, None).expect("made of valid pixels").with_planes(synth.config().camera)
+    FragmentList::new(offsets, view_z, alpha, None)
+        .expect("made of valid pixels")
+        .with_planes(synth.config().camera)
 }
 
 /// Builds a dataset of random pixels.
 ///
 /// # Errors
 /// [`DatasetError`] names the field that is wrong.
-pub fn build(name: &str, seed: u64, synth: &SynthConfig, config: &DatasetConfig, progress: &dyn Fn(u64)) -> Result<Dataset, DatasetError> {
+pub fn build(
+    name: &str,
+    seed: u64,
+    synth: &SynthConfig,
+    config: &DatasetConfig,
+    progress: &dyn Fn(u64),
+) -> Result<Dataset, DatasetError> {
     config.validate()?;
     if config.features.moment_depth() == MomentDepthKind::Log {
         let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, usize), DatasetError> {
@@ -179,23 +211,42 @@ pub fn build(name: &str, seed: u64, synth: &SynthConfig, config: &DatasetConfig,
             Ok((rows, stream.position() as usize))
         };
         let (mut training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
-        let (mut validation, validation_pixels) = part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
+        let (mut validation, validation_pixels) =
+            part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
         normalise(&mut [&mut training.weights]);
         // What is chosen by is the plain mean over rows, whatever training weighs.
         validation.weights.clear();
         let pixels = [training_pixels, validation_pixels];
-        return Ok(dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels));
+        return Ok(dataset(
+            name,
+            seed,
+            config,
+            Some(synth.clone()),
+            Vec::new(),
+            [training, validation],
+            pixels,
+        ));
     }
     let source = Synth::new(synth.clone(), seed)?;
     let training_pixels = pixels_holding(&source, Purpose::Training, config.training_pairs, progress);
     let made = training_pixels.len() as u64;
-    let validation_pixels = pixels_holding(&source, Purpose::Validation, config.validation_pairs, &|n| progress(made + n));
+    let validation_pixels = pixels_holding(&source, Purpose::Validation, config.validation_pairs, &|n| {
+        progress(made + n)
+    });
     // One scene has one depth range: validation pixels are seen with that of the training pixels.
     let extractor = Extractor::for_list(config.features, &training_pixels, None, None)?;
     let training = rows(&training_pixels, &extractor)?;
     let validation = rows(&validation_pixels, &extractor)?;
     let pixels = [training_pixels.pixels(), validation_pixels.pixels()];
-    Ok(dataset(name, seed, config, Some(synth.clone()), Vec::new(), [training, validation], pixels))
+    Ok(dataset(
+        name,
+        seed,
+        config,
+        Some(synth.clone()),
+        Vec::new(),
+        [training, validation],
+        pixels,
+    ))
 }
 
 /// The random pixels that a dataset was made of, drawn again: training pixels, validation pixels; none where they are not random.
@@ -206,15 +257,26 @@ pub fn pixels_of(manifest: &Manifest) -> Result<Option<[FragmentList; 2]>, Datas
     let Some(synth) = &manifest.synth else { return Ok(None) };
     let source = Synth::new(synth.clone(), manifest.seed)?;
     let part = |purpose, part: &Part| source.pixels(purpose, 0, part.pixels);
-    Ok(Some([part(Purpose::Training, &manifest.training), part(Purpose::Validation, &manifest.validation)]))
+    Ok(Some([
+        part(Purpose::Training, &manifest.training),
+        part(Purpose::Validation, &manifest.validation),
+    ]))
 }
 
 /// Scales weights, which may stand in several pieces, to a mean of 1.
 pub fn normalise(pieces: &mut [&mut [f32]]) {
     let count: usize = pieces.iter().map(|weights| weights.len()).sum();
-    let mean = pieces.iter().flat_map(|weights| weights.iter()).map(|&w| f64::from(w)).sum::<f64>() / count.max(1) as f64;
+    let mean = pieces
+        .iter()
+        .flat_map(|weights| weights.iter())
+        .map(|&w| f64::from(w))
+        .sum::<f64>()
+        / count.max(1) as f64;
     if mean > 0.0 {
-        pieces.iter_mut().flat_map(|weights| weights.iter_mut()).for_each(|w| *w = (f64::from(*w) / mean) as f32);
+        pieces
+            .iter_mut()
+            .flat_map(|weights| weights.iter_mut())
+            .for_each(|w| *w = (f64::from(*w) / mean) as f32);
     }
 }
 
@@ -225,11 +287,20 @@ pub fn normalise(pieces: &mut [&mut [f32]]) {
 /// # Errors
 /// [`DatasetError::TooFew`] where the lists do not hold as many fragments as asked for; [`DatasetError::ListDepth`] names the list whose depths do
 /// not fit the feature set.
-pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], config: &DatasetConfig) -> Result<Dataset, DatasetError> {
+pub fn build_from_lists(
+    name: &str,
+    seed: u64,
+    lists: &[(&str, &FragmentList)],
+    config: &DatasetConfig,
+) -> Result<Dataset, DatasetError> {
     config.validate()?;
     let mut pixels: Vec<(u32, u32)> = Vec::new();
     for (index, (_, list)) in lists.iter().enumerate() {
-        pixels.extend((0..list.pixels()).filter(|&p| !list.range(p).is_empty()).map(|p| (index as u32, p as u32)));
+        pixels.extend(
+            (0..list.pixels())
+                .filter(|&p| !list.range(p).is_empty())
+                .map(|p| (index as u32, p as u32)),
+        );
     }
     pixels.shuffle(&mut stream(seed, SPLIT_PURPOSE, 0));
     let mut rest = pixels.as_slice();
@@ -249,12 +320,22 @@ pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], 
     };
     let (Some(validation), Some(training)) = (take(config.validation_pairs), take(config.training_pairs)) else {
         let found = lists.iter().map(|(_, list)| list.len() as u64).sum();
-        return Err(DatasetError::TooFew { found, needed: config.training_pairs + config.validation_pairs });
+        return Err(DatasetError::TooFew {
+            found,
+            needed: config.training_pairs + config.validation_pairs,
+        });
     };
     let mut extractors = Vec::with_capacity(lists.len());
     for &(name, list) in lists {
-        let in_list = |source| DatasetError::ListDepth { name: name.to_owned(), source };
-        extractors.push(Extractor::for_list(config.features, list, None, None).map_err(in_list)?.with_storage(config.storage));
+        let in_list = |source| DatasetError::ListDepth {
+            name: name.to_owned(),
+            source,
+        };
+        extractors.push(
+            Extractor::for_list(config.features, list, None, None)
+                .map_err(in_list)?
+                .with_storage(config.storage),
+        );
     }
     let rows_of = |chosen: &[(u32, u32)]| {
         let mut all = Rows::none(config.features);
@@ -262,8 +343,16 @@ pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], 
         for of_one in chosen.chunk_by(|a, b| a.0 == b.0) {
             let index = of_one[0].0 as usize;
             let part = selected(lists[index].1, of_one);
-            let in_list = |source| DatasetError::ListDepth { name: lists[index].0.to_owned(), source };
-            let Rows { features, targets, pixels, .. } = rows(&part, &extractors[index]).map_err(in_list)?;
+            let in_list = |source| DatasetError::ListDepth {
+                name: lists[index].0.to_owned(),
+                source,
+            };
+            let Rows {
+                features,
+                targets,
+                pixels,
+                ..
+            } = rows(&part, &extractors[index]).map_err(in_list)?;
             all.features.extend(features);
             all.targets.extend(targets);
             all.pixels.extend(pixels.into_iter().map(|p| p + before));
@@ -273,7 +362,15 @@ pub fn build_from_lists(name: &str, seed: u64, lists: &[(&str, &FragmentList)], 
     };
     let rows = [rows_of(&training)?, rows_of(&validation)?];
     let sources = lists.iter().map(|(name, list)| ListSource::of(name, list)).collect();
-    Ok(dataset(name, seed, config, None, sources, rows, [training.len(), validation.len()]))
+    Ok(dataset(
+        name,
+        seed,
+        config,
+        None,
+        sources,
+        rows,
+        [training.len(), validation.len()],
+    ))
 }
 
 /// Some pixels of a list, in order, without colours.
@@ -316,7 +413,11 @@ fn dataset(
         training: training_part,
         validation: validation_part,
     };
-    Dataset { training, validation, manifest }
+    Dataset {
+        training,
+        validation,
+        manifest,
+    }
 }
 
 #[cfg(test)]
@@ -334,7 +435,12 @@ pub(crate) mod tests {
     }
 
     pub(crate) fn small() -> (Dataset, [FragmentList; 2]) {
-        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 3000, validation_pairs: 500, ..sizes() };
+        let config = DatasetConfig {
+            features: FeatureSet::Paper,
+            training_pairs: 3000,
+            validation_pairs: 500,
+            ..sizes()
+        };
         with_pixels(build("small", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap())
     }
 
@@ -356,7 +462,9 @@ pub(crate) mod tests {
         }
         assert!(dataset.validation.len() >= 500);
         // No validation pixel is a training pixel.
-        let starts: std::collections::HashSet<u32> = (0..training.pixels()).map(|p| training.pixel(p).view_z[0].to_bits()).collect();
+        let starts: std::collections::HashSet<u32> = (0..training.pixels())
+            .map(|p| training.pixel(p).view_z[0].to_bits())
+            .collect();
         assert!((0..validation.pixels()).all(|p| !starts.contains(&validation.pixel(p).view_z[0].to_bits())));
     }
 
@@ -365,7 +473,14 @@ pub(crate) mod tests {
     fn pixels_that_hold_a_number_are_the_first_ones() {
         let synth = Synth::new(SynthConfig::paper(), 3).unwrap();
         let all = synth.pixels(Purpose::Training, 0, 12_000);
-        for pairs in [1, all.offsets()[100], all.offsets()[100] + 1, all.offsets()[4096], all.offsets()[4096] + 1, 150_000] {
+        for pairs in [
+            1,
+            all.offsets()[100],
+            all.offsets()[100] + 1,
+            all.offsets()[4096],
+            all.offsets()[4096] + 1,
+            150_000,
+        ] {
             let list = pixels_holding(&synth, Purpose::Training, pairs, &|n| assert!(n <= pairs));
             assert_eq!(list, synth.pixels(Purpose::Training, 0, list.pixels()));
             assert!(list.len() as u64 >= pairs && list.offsets()[list.pixels() - 1] < pairs);
@@ -382,14 +497,24 @@ pub(crate) mod tests {
     }
 
     fn deep() -> DatasetConfig {
-        DatasetConfig { features: FeatureSet::DeepWeightedBlended, training_pairs: 1500, validation_pairs: 500, ..sizes() }
+        DatasetConfig {
+            features: FeatureSet::DeepWeightedBlended,
+            training_pairs: 1500,
+            validation_pairs: 500,
+            ..sizes()
+        }
     }
 
     #[test]
     fn the_target_depends_on_the_feature_set() {
         let (dataset, [training, _]) = with_pixels(build("deep", 3, &SynthConfig::paper(), &deep(), &|_| {}).unwrap());
         let exact = abuffer::list_front_to_back_factor(&training);
-        assert!(exact.iter().zip(&dataset.training.targets).all(|(&e, &t)| e as f32 == t));
+        assert!(
+            exact
+                .iter()
+                .zip(&dataset.training.targets)
+                .all(|(&e, &t)| e as f32 == t)
+        );
         assert_eq!(dataset.manifest.target, "front-to-back-factor");
         assert_eq!(small().0.manifest.target, "transmittance");
     }
@@ -404,15 +529,31 @@ pub(crate) mod tests {
         let dataset = build_from_lists("two", 7, &lists, &deep()).unwrap();
         assert!(dataset.training.len() >= 1500 && dataset.validation.len() >= 500);
         assert_eq!(
-            dataset.manifest.lists.iter().map(|l| (l.name.as_str(), l.fragments)).collect::<Vec<_>>(),
+            dataset
+                .manifest
+                .lists
+                .iter()
+                .map(|l| (l.name.as_str(), l.fragments))
+                .collect::<Vec<_>>(),
             [("near", near.len() as u64), ("far", far.len() as u64)]
         );
         let mut known = std::collections::HashMap::new();
         for (index, (_, list)) in lists.into_iter().enumerate() {
-            let rows = rows(list, &Extractor::for_list(FeatureSet::DeepWeightedBlended, list, None, None).unwrap()).unwrap();
+            let rows = rows(
+                list,
+                &Extractor::for_list(FeatureSet::DeepWeightedBlended, list, None, None).unwrap(),
+            )
+            .unwrap();
             for p in 0..list.pixels() {
-                let features: Vec<u32> = rows.features[3 * list.range(p).start..3 * list.range(p).end].iter().map(|f| f.to_bits()).collect();
-                assert!(known.insert(features, (index, rows.targets[list.range(p)].to_vec())).is_none());
+                let features: Vec<u32> = rows.features[3 * list.range(p).start..3 * list.range(p).end]
+                    .iter()
+                    .map(|f| f.to_bits())
+                    .collect();
+                assert!(
+                    known
+                        .insert(features, (index, rows.targets[list.range(p)].to_vec()))
+                        .is_none()
+                );
             }
         }
         let mut seen = [false; 2];
@@ -421,7 +562,10 @@ pub(crate) mod tests {
             for same in rows.pixels.chunk_by(|a, b| a == b) {
                 let range = start..start + same.len();
                 start = range.end;
-                let features: Vec<u32> = rows.features[3 * range.start..3 * range.end].iter().map(|f| f.to_bits()).collect();
+                let features: Vec<u32> = rows.features[3 * range.start..3 * range.end]
+                    .iter()
+                    .map(|f| f.to_bits())
+                    .collect();
                 let (index, targets) = known.remove(&features).expect("a whole pixel of a list, used once");
                 seen[index] = true;
                 assert_eq!(rows.targets[range], targets);
@@ -429,26 +573,57 @@ pub(crate) mod tests {
         }
         assert_eq!(seen, [true; 2]);
         assert_eq!(build_from_lists("two", 7, &lists, &deep()).unwrap(), dataset);
-        assert_ne!(build_from_lists("two", 8, &lists, &deep()).unwrap().manifest.hash, dataset.manifest.hash);
+        assert_ne!(
+            build_from_lists("two", 8, &lists, &deep()).unwrap().manifest.hash,
+            dataset.manifest.hash
+        );
     }
 
     #[test]
     fn lists_that_do_not_suffice() {
         let (_, [list, _]) = small();
-        let config = DatasetConfig { training_pairs: list.len() as u64, ..deep() };
+        let config = DatasetConfig {
+            training_pairs: list.len() as u64,
+            ..deep()
+        };
         let error = build_from_lists("x", 1, &[("a", &list)], &config).unwrap_err();
-        assert!(matches!(error, DatasetError::TooFew { found, .. } if found == list.len() as u64), "{error}");
-        let without_planes = FragmentList::new(list.offsets().to_vec(), list.view_z().to_vec(), list.alpha().to_vec(), None).unwrap();
-        let paper = DatasetConfig { features: FeatureSet::Paper, ..deep() };
+        assert!(
+            matches!(error, DatasetError::TooFew { found, .. } if found == list.len() as u64),
+            "{error}"
+        );
+        let without_planes = FragmentList::new(
+            list.offsets().to_vec(),
+            list.view_z().to_vec(),
+            list.alpha().to_vec(),
+            None,
+        )
+        .unwrap();
+        let paper = DatasetConfig {
+            features: FeatureSet::Paper,
+            ..deep()
+        };
         let error = build_from_lists("x", 1, &[("a", &without_planes)], &paper).unwrap_err();
-        assert!(error.to_string().starts_with("fragment list 'a': window depth needs the camera planes"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .starts_with("fragment list 'a': window depth needs the camera planes"),
+            "{error}"
+        );
     }
 
     #[test]
     fn sizes_are_validated() {
-        let mut config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 0, validation_pairs: 1, ..sizes() };
+        let mut config = DatasetConfig {
+            features: FeatureSet::Paper,
+            training_pairs: 0,
+            validation_pairs: 1,
+            ..sizes()
+        };
         let error = build("x", 1, &SynthConfig::paper(), &config, &|_| {}).unwrap_err();
-        assert_eq!(error.to_string(), "dataset.training_pairs = 0: must be from 1 to 1073741824");
+        assert_eq!(
+            error.to_string(),
+            "dataset.training_pairs = 0: must be from 1 to 1073741824"
+        );
         config.training_pairs = u64::MAX;
         assert!(config.validate().is_err());
     }

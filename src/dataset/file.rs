@@ -73,9 +73,15 @@ impl ListSource {
     /// Describes a list.
     pub fn of(name: &str, list: &FragmentList) -> Self {
         let offsets: Vec<u8> = list.offsets().iter().flat_map(|o| o.to_le_bytes()).collect();
-        let [view_z, alpha] = [list.view_z(), list.alpha()].map(|a| a.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>());
+        let [view_z, alpha] =
+            [list.view_z(), list.alpha()].map(|a| a.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>());
         let sha256 = sha256_hex([offsets.as_slice(), &view_z, &alpha]);
-        Self { name: name.to_owned(), pixels: list.pixels() as u64, fragments: list.len() as u64, sha256 }
+        Self {
+            name: name.to_owned(),
+            pixels: list.pixels() as u64,
+            fragments: list.len() as u64,
+            sha256,
+        }
     }
 }
 
@@ -131,20 +137,37 @@ pub enum DatasetFileError {
 impl Part {
     /// Describes rows as [`write()`] writes them.
     pub fn of(part: &str, rows: &Rows, pixels: usize) -> Self {
-        let files = encoded(part, rows).into_iter().map(|(file, bytes)| ArrayFile { file, sha256: sha256_hex([bytes.as_slice()]) }).collect();
-        Self { pixels, pairs: rows.len(), files }
+        let files = encoded(part, rows)
+            .into_iter()
+            .map(|(file, bytes)| ArrayFile {
+                file,
+                sha256: sha256_hex([bytes.as_slice()]),
+            })
+            .collect();
+        Self {
+            pixels,
+            pairs: rows.len(),
+            files,
+        }
     }
 }
 
 impl Manifest {
     /// Hash of a dataset, from the hashes of its arrays.
     pub fn hash_of(training: &Part, validation: &Part) -> String {
-        sha256_hex(training.files.iter().chain(&validation.files).map(|f| f.sha256.as_bytes()))
+        sha256_hex(
+            training
+                .files
+                .iter()
+                .chain(&validation.files)
+                .map(|f| f.sha256.as_bytes()),
+        )
     }
 }
 
 fn encoded(part: &str, rows: &Rows) -> Vec<(String, Vec<u8>)> {
-    let features = ArrayView2::from_shape((rows.len(), rows.feature_set.width()), &rows.features).expect("W features a row");
+    let features =
+        ArrayView2::from_shape((rows.len(), rows.feature_set.width()), &rows.features).expect("W features a row");
     let mut files = vec![
         (format!("{part}_features.npy"), encode(features)),
         (format!("{part}_targets.npy"), encode(ArrayView1::from(&rows.targets))),
@@ -173,7 +196,8 @@ pub fn write(folder: &Path, replace: Replace, dataset: &Dataset) -> Result<(), F
     create_folder(folder)?;
     if replace == Replace::Yes && folder.join(MANIFEST).exists() {
         // Without its manifest the old dataset is not taken for a whole one while its arrays are being replaced.
-        std::fs::remove_file(folder.join(MANIFEST)).map_err(FileError::io(folder, "cannot replace the old manifest"))?;
+        std::fs::remove_file(folder.join(MANIFEST))
+            .map_err(FileError::io(folder, "cannot replace the old manifest"))?;
     }
     for (part, rows) in [("training", &dataset.training), ("validation", &dataset.validation)] {
         for (file, bytes) in encoded(part, rows) {
@@ -194,7 +218,10 @@ pub fn write(folder: &Path, replace: Replace, dataset: &Dataset) -> Result<(), F
 pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
     let path = folder.join(MANIFEST);
     let text = read(&path)?;
-    let wrong = |reason: String| DatasetFileError::Manifest { path: path.clone(), reason };
+    let wrong = |reason: String| DatasetFileError::Manifest {
+        path: path.clone(),
+        reason,
+    };
     #[derive(Deserialize)]
     struct Head {
         format: String,
@@ -205,23 +232,42 @@ pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
         return Err(wrong(format!("format '{}' is not 'nmt-dataset'", head.format)));
     }
     if head.version != MANIFEST_VERSION {
-        return Err(wrong(format!("version {} is not {MANIFEST_VERSION}; use the nmt that wrote it, or generate it again", head.version)));
+        return Err(wrong(format!(
+            "version {} is not {MANIFEST_VERSION}; use the nmt that wrote it, or generate it again",
+            head.version
+        )));
     }
     let manifest: Manifest = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
     let training = read_part(folder, &manifest.training, manifest.features)?;
     let validation = read_part(folder, &manifest.validation, manifest.features)?;
     if manifest.hash != Manifest::hash_of(&manifest.training, &manifest.validation) {
-        return Err(wrong("the hash of the whole does not follow from those of its files; generate the dataset again".to_owned()));
+        return Err(wrong(
+            "the hash of the whole does not follow from those of its files; generate the dataset again".to_owned(),
+        ));
     }
-    Ok(Dataset { training, validation, manifest })
+    Ok(Dataset {
+        training,
+        validation,
+        manifest,
+    })
 }
 
 fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows, DatasetFileError> {
     if !(3..=4).contains(&part.files.len()) {
-        let reason = format!("{} arrays of a part; features, targets, pixels and at most weights are expected", part.files.len());
-        return Err(DatasetFileError::Manifest { path: folder.join(MANIFEST), reason });
+        let reason = format!(
+            "{} arrays of a part; features, targets, pixels and at most weights are expected",
+            part.files.len()
+        );
+        return Err(DatasetFileError::Manifest {
+            path: folder.join(MANIFEST),
+            reason,
+        });
     }
-    let paths: Vec<PathBuf> = part.files.iter().map(|f| folder.join(Path::new(&f.file).file_name().unwrap_or_default())).collect();
+    let paths: Vec<PathBuf> = part
+        .files
+        .iter()
+        .map(|f| folder.join(Path::new(&f.file).file_name().unwrap_or_default()))
+        .collect();
     for (path, file) in paths.iter().zip(&part.files) {
         if sha256_hex([read(path)?.as_slice()]) != file.sha256 {
             return Err(DatasetFileError::Content {
@@ -238,7 +284,10 @@ fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows
         && (weights.shape() != [part.pairs] || !weights.iter().all(|w| w.is_finite() && *w >= 0.0))
     {
         let reason = format!("expected {} finite weights, none negative", part.pairs);
-        return Err(DatasetFileError::Content { path: path.clone(), reason });
+        return Err(DatasetFileError::Content {
+            path: path.clone(),
+            reason,
+        });
     }
     let shapes = [
         (&paths[0], features.shape(), vec![part.pairs, feature_set.width()]),
@@ -247,12 +296,18 @@ fn read_part(folder: &Path, part: &Part, feature_set: FeatureSet) -> Result<Rows
     ];
     for (path, found, expected) in shapes {
         if found != expected {
-            return Err(DatasetFileError::Content { path: path.clone(), reason: format!("shape {found:?}, expected {expected:?}") });
+            return Err(DatasetFileError::Content {
+                path: path.clone(),
+                reason: format!("shape {found:?}, expected {expected:?}"),
+            });
         }
     }
     for (path, values) in [(&paths[0], &features), (&paths[1], &targets)] {
         if let Some(i) = values.iter().position(|v| !v.is_finite()) {
-            return Err(DatasetFileError::Content { path: path.clone(), reason: format!("entry {i} is not finite") });
+            return Err(DatasetFileError::Content {
+                path: path.clone(),
+                reason: format!("entry {i} is not finite"),
+            });
         }
     }
     Ok(Rows {
@@ -276,7 +331,10 @@ mod tests {
         write(folder.path(), Replace::No, &dataset).unwrap();
         assert_eq!(read_from(folder.path()).unwrap(), dataset);
         assert_eq!(small().0.manifest.hash, dataset.manifest.hash);
-        assert!(matches!(write(folder.path(), Replace::No, &dataset), Err(FileError::Exists { .. })));
+        assert!(matches!(
+            write(folder.path(), Replace::No, &dataset),
+            Err(FileError::Exists { .. })
+        ));
         write(folder.path(), Replace::Yes, &dataset).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 7);
     }
@@ -297,7 +355,12 @@ mod tests {
         let last = bytes.len() - 1;
         bytes[last] ^= 1;
         std::fs::write(&path, bytes).unwrap();
-        assert!(read_from(folder.path()).unwrap_err().to_string().contains("hash differs"));
+        assert!(
+            read_from(folder.path())
+                .unwrap_err()
+                .to_string()
+                .contains("hash differs")
+        );
     }
 
     #[test]

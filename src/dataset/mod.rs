@@ -40,7 +40,13 @@ pub struct Row<'a> {
 impl Rows {
     /// No rows.
     pub fn none(feature_set: FeatureSet) -> Self {
-        Self { feature_set, features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() }
+        Self {
+            feature_set,
+            features: Vec::new(),
+            targets: Vec::new(),
+            weights: Vec::new(),
+            pixels: Vec::new(),
+        }
     }
 
     /// One of the rows.
@@ -50,8 +56,16 @@ impl Rows {
     #[inline]
     pub fn row(&self, index: usize) -> Row<'_> {
         let width = self.feature_set.width();
-        let weight = if self.weights.is_empty() { 1.0 } else { self.weights[index] };
-        Row { features: &self.features[index * width..][..width], target: self.targets[index], weight }
+        let weight = if self.weights.is_empty() {
+            1.0
+        } else {
+            self.weights[index]
+        };
+        Row {
+            features: &self.features[index * width..][..width],
+            target: self.targets[index],
+            weight,
+        }
     }
 
     /// Number of rows, N.

@@ -18,7 +18,7 @@ const TASK: usize = 128;
 const WAVE: usize = 256;
 
 /// Pixels without a single row after which one gives up.
-const MOST_EMPTY_PIXELS: u64 = 1 << 20;
+const MAX_EMPTY_PIXELS: u64 = 1 << 20;
 
 /// Rows of neighbouring pixels.
 #[derive(Debug, Clone, Default)]
@@ -46,8 +46,16 @@ impl Part {
     /// One of the rows, of features so wide.
     #[inline]
     pub fn row(&self, index: usize, width: usize) -> Row<'_> {
-        let weight = if self.weights.is_empty() { 1.0 } else { self.weights[index] };
-        Row { features: &self.features[index * width..][..width], target: self.targets[index], weight }
+        let weight = if self.weights.is_empty() {
+            1.0
+        } else {
+            self.weights[index]
+        };
+        Row {
+            features: &self.features[index * width..][..width],
+            target: self.targets[index],
+            weight,
+        }
     }
 
     /// How much each row counts; empty where all count 1.
@@ -57,7 +65,10 @@ impl Part {
 
     /// Number of each row's pixel, that of the part's first pixel given.
     fn pixels(&self, first: u32) -> impl Iterator<Item = u32> {
-        self.counts.iter().zip(first..).flat_map(|(&n, pixel)| std::iter::repeat_n(pixel, n as usize))
+        self.counts
+            .iter()
+            .zip(first..)
+            .flat_map(|(&n, pixel)| std::iter::repeat_n(pixel, n as usize))
     }
 
     /// Keeps no more pixels than it takes to hold so many rows.
@@ -101,14 +112,40 @@ impl RowStream {
             return Err(DatasetError::NoStream(config.features.name()));
         }
         let source = Synth::new(synth.clone(), seed)?;
-        let extractor = Extractor::new(config.features, Some(synth.camera), Some((synth.camera.near(), synth.camera.far())))?;
-        let made = (if config.rows_per_pixel == 0 { 16 } else { config.rows_per_pixel.min(16).into() }, 1);
-        Ok(Self { source, purpose, seed, config: config.clone(), extractor: extractor.with_storage(config.storage), next: 0, made })
+        let extractor = Extractor::new(
+            config.features,
+            Some(synth.camera),
+            Some((synth.camera.near(), synth.camera.far())),
+        )?;
+        let made = (
+            if config.rows_per_pixel == 0 {
+                16
+            } else {
+                config.rows_per_pixel.min(16).into()
+            },
+            1,
+        );
+        Ok(Self {
+            source,
+            purpose,
+            seed,
+            config: config.clone(),
+            extractor: extractor.with_storage(config.storage),
+            next: 0,
+            made,
+        })
     }
 
     /// The same where so many rows of so many pixels are known: how much work it takes is foreseen by them. No row depends on it.
     pub fn expecting(self, rows: usize, pixels: usize) -> Self {
-        if rows == 0 || pixels == 0 { self } else { Self { made: (rows as u64, pixels as u64), ..self } }
+        if rows == 0 || pixels == 0 {
+            self
+        } else {
+            Self {
+                made: (rows as u64, pixels as u64),
+                ..self
+            }
+        }
     }
 
     /// Features of a row, W.
@@ -156,7 +193,7 @@ impl RowStream {
             self.next += pixels;
             if rows > 0 {
                 self.made = (rows as u64, self.next - first);
-            } else if self.next - first > MOST_EMPTY_PIXELS {
+            } else if self.next - first > MAX_EMPTY_PIXELS {
                 return Err(DatasetError::NothingToLearn);
             }
             progress(rows as u64);
@@ -166,21 +203,34 @@ impl RowStream {
 
     /// Rows of so many pixels from `first` on.
     fn part(&self, first: u64, pixels: usize) -> Part {
-        let most = if self.config.rows_per_pixel == 0 { usize::MAX } else { self.config.rows_per_pixel as usize };
+        let most = if self.config.rows_per_pixel == 0 {
+            usize::MAX
+        } else {
+            self.config.rows_per_pixel as usize
+        };
         let (mut sketch, mut rows, mut part) = (Sketch::default(), Sampled::default(), Part::default());
-        rows.reserve((pixels as u64 * self.made.0 / self.made.1) as usize * 9 / 8, self.width());
+        rows.reserve(
+            (pixels as u64 * self.made.0 / self.made.1) as usize * 9 / 8,
+            self.width(),
+        );
         part.counts.reserve(pixels);
         for index in first..first + pixels as u64 {
             let pixel = self.source.pixel(self.purpose, index, &mut sketch);
-            self.extractor.sample(pixel, most, &mut stream(self.seed, CHOICE_PURPOSE, index), &mut rows);
+            self.extractor
+                .sample(pixel, most, &mut stream(self.seed, CHOICE_PURPOSE, index), &mut rows);
             part.counts.push(rows.of_pixel as u32);
             if self.config.weights == Weighting::Image {
                 // The rows stand for all fragments of the pixel.
                 let stands_for = pixel.len() as f32 / rows.of_pixel as f32;
-                part.weights.extend(rows.alpha[part.weights.len()..].iter().map(|a| a * a * stands_for));
+                part.weights
+                    .extend(rows.alpha[part.weights.len()..].iter().map(|a| a * a * stands_for));
             }
         }
-        Part { features: rows.features, targets: rows.targets, ..part }
+        Part {
+            features: rows.features,
+            targets: rows.targets,
+            ..part
+        }
     }
 }
 
@@ -200,16 +250,30 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
     let mut places = Vec::with_capacity(parts.len());
     for part in parts {
         let n = part.len();
-        places.push((part, next, split(&mut features, n * width), split(&mut targets, n), split(&mut weights, n), split(&mut pixels, n)));
+        places.push((
+            part,
+            next,
+            split(&mut features, n * width),
+            split(&mut targets, n),
+            split(&mut weights, n),
+            split(&mut pixels, n),
+        ));
         next += part.counts.len() as u32;
     }
-    let beyond = places.last().map(|(part, first, _, targets, ..)| (*part, *first, targets.len()));
-    places.into_par_iter().for_each(|(part, first, features, targets, weights, pixels)| {
-        features.copy_from_slice(&part.features[..features.len()]);
-        targets.copy_from_slice(&part.targets[..targets.len()]);
-        weights.copy_from_slice(&part.weights[..weights.len()]);
-        pixels.iter_mut().zip(part.pixels(first)).for_each(|(to, pixel)| *to = pixel);
-    });
+    let beyond = places
+        .last()
+        .map(|(part, first, _, targets, ..)| (*part, *first, targets.len()));
+    places
+        .into_par_iter()
+        .for_each(|(part, first, features, targets, weights, pixels)| {
+            features.copy_from_slice(&part.features[..features.len()]);
+            targets.copy_from_slice(&part.targets[..targets.len()]);
+            weights.copy_from_slice(&part.weights[..weights.len()]);
+            pixels
+                .iter_mut()
+                .zip(part.pixels(first))
+                .for_each(|(to, pixel)| *to = pixel);
+        });
     if let Some((part, first, n)) = beyond {
         out.features.extend_from_slice(&part.features[n * width..]);
         out.targets.extend_from_slice(&part.targets[n..]);
@@ -231,7 +295,12 @@ impl<'a> Making<'a> {
     /// So many rows from pixel `first` on, as far as at most so many tasks make them.
     pub fn new(stream: &'a RowStream, first: u64, pairs: usize, most_tasks: usize) -> Self {
         let tasks = stream.tasks(pairs).min(most_tasks);
-        Self { stream, first, pairs, parts: std::iter::repeat_with(Mutex::default).take(tasks).collect() }
+        Self {
+            stream,
+            first,
+            pairs,
+            parts: std::iter::repeat_with(Mutex::default).take(tasks).collect(),
+        }
     }
 
     /// Number of tasks.
@@ -283,7 +352,7 @@ impl<'a> Making<'a> {
             if rows >= self.pairs {
                 return Ok(parts);
             }
-            if rows == 0 && pixels > MOST_EMPTY_PIXELS {
+            if rows == 0 && pixels > MAX_EMPTY_PIXELS {
                 return Err(DatasetError::NothingToLearn);
             }
             parts.extend(Making::new(self.stream, self.first + pixels, self.pairs - rows, WAVE).run_all());
@@ -293,7 +362,9 @@ impl<'a> Making<'a> {
 
 /// Rows and pixels of parts.
 fn count(parts: &[Part]) -> (usize, u64) {
-    parts.iter().fold((0, 0), |(rows, pixels), part| (rows + part.len(), pixels + part.counts.len() as u64))
+    parts.iter().fold((0, 0), |(rows, pixels), part| {
+        (rows + part.len(), pixels + part.counts.len() as u64)
+    })
 }
 
 #[cfg(test)]
@@ -307,31 +378,60 @@ mod tests {
     #[test]
     fn bytes_of_sampled_rows_are_pinned() {
         let hash = |features: FeatureSet| {
-            let config = DatasetConfig { features, rows_per_pixel: 4, ..sizes() };
-            let synth = if features == FeatureSet::Paper { SynthConfig::paper() } else { SynthConfig::wide() };
-            let rows = RowStream::new(7, &synth, &config, Purpose::Training).unwrap().take(2000, &|_| {}).unwrap();
-            let bytes: Vec<u8> = rows.features.iter().chain(&rows.targets).flat_map(|v| v.to_le_bytes()).collect();
+            let config = DatasetConfig {
+                features,
+                rows_per_pixel: 4,
+                ..sizes()
+            };
+            let synth = if features == FeatureSet::Paper {
+                SynthConfig::paper()
+            } else {
+                SynthConfig::wide()
+            };
+            let rows = RowStream::new(7, &synth, &config, Purpose::Training)
+                .unwrap()
+                .take(2000, &|_| {})
+                .unwrap();
+            let bytes: Vec<u8> = rows
+                .features
+                .iter()
+                .chain(&rows.targets)
+                .flat_map(|v| v.to_le_bytes())
+                .collect();
             crate::numeric::digest::sha256_hex([bytes.as_slice()])
         };
         insta::assert_snapshot!(format!("{}\n{}", hash(FeatureSet::Paper), hash(FeatureSet::Recentred6)));
     }
 
     fn streamed(change: impl FnOnce(&mut DatasetConfig)) -> Rows {
-        let mut config = DatasetConfig { features: FeatureSet::Recentred, rows_per_pixel: 4, ..sizes() };
+        let mut config = DatasetConfig {
+            features: FeatureSet::Recentred,
+            rows_per_pixel: 4,
+            ..sizes()
+        };
         change(&mut config);
-        RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training).unwrap().take(3000, &|_| {}).unwrap()
+        RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training)
+            .unwrap()
+            .take(3000, &|_| {})
+            .unwrap()
     }
 
     /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in [−1, 1].
     #[test]
     fn streamed_rows_are_in_their_domain() {
-        for rows in [streamed(|_| {}), streamed(|c| c.storage = Storage::F16), streamed(|c| c.storage = Storage::Unorm16)] {
+        for rows in [
+            streamed(|_| {}),
+            streamed(|c| c.storage = Storage::F16),
+            streamed(|c| c.storage = Storage::Unorm16),
+        ] {
             assert!(rows.len() >= 3000 && rows.len() < 3004);
             assert!(rows.pixels.chunk_by(|a, b| a == b).all(|of_one| of_one.len() <= 4));
             assert!(rows.targets.iter().all(|t| (0.0..=1.0).contains(t)));
             for row in rows.features.chunks_exact(7) {
                 assert!(
-                    row.iter().all(|f| f.is_finite()) && (-1.0..=1.0).contains(&row[0]) && row[3..].iter().all(|f| (-1.0..=1.0).contains(f)),
+                    row.iter().all(|f| f.is_finite())
+                        && (-1.0..=1.0).contains(&row[0])
+                        && row[3..].iter().all(|f| (-1.0..=1.0).contains(f)),
                     "{row:?}"
                 );
             }
@@ -357,12 +457,20 @@ mod tests {
                 .map(|p| {
                     let range = at..at + p.len();
                     at = range.end;
-                    (p[0], rows.features[7 * range.start..7 * range.end].to_vec(), rows.targets[range].to_vec())
+                    (
+                        p[0],
+                        rows.features[7 * range.start..7 * range.end].to_vec(),
+                        rows.targets[range].to_vec(),
+                    )
                 })
                 .collect()
         };
-        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> = of(half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
-        let same: Vec<_> = of(single).into_iter().filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h))).collect();
+        let half: std::collections::HashMap<u32, (Vec<f32>, Vec<f32>)> =
+            of(half).into_iter().map(|(p, f, t)| (p, (f, t))).collect();
+        let same: Vec<_> = of(single)
+            .into_iter()
+            .filter_map(|(p, f, t)| half.get(&p).filter(|h| h.1.len() == t.len()).map(|h| (f, t, h)))
+            .collect();
         assert!(same.len() > 30, "{}", same.len());
         assert!(same.iter().all(|(_, t, half)| *t == half.1));
         assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);
@@ -393,27 +501,45 @@ mod tests {
 
     #[test]
     fn what_cannot_be_streamed_is_named() {
-        let error = |config: &DatasetConfig, synth: &SynthConfig| match RowStream::new(1, synth, config, Purpose::Training) {
-            Err(error) => error.to_string(),
-            Ok(mut stream) => stream.take(10, &|_| {}).unwrap_err().to_string(),
+        let error =
+            |config: &DatasetConfig, synth: &SynthConfig| match RowStream::new(1, synth, config, Purpose::Training) {
+                Err(error) => error.to_string(),
+                Ok(mut stream) => stream.take(10, &|_| {}).unwrap_err().to_string(),
+            };
+        let deep = DatasetConfig {
+            features: FeatureSet::DeepWeightedBlended,
+            ..sizes()
         };
-        let deep = DatasetConfig { features: FeatureSet::DeepWeightedBlended, ..sizes() };
         assert_eq!(
             error(&deep, &SynthConfig::paper()),
             "dataset.features = 'deep-weighted-blended': its pixels cannot be streamed; set dataset.refresh to 0"
         );
         let mut few = SynthConfig::paper();
         few.pixels[0].fragments.max = 3;
-        let recentred = DatasetConfig { features: FeatureSet::Recentred, ..sizes() };
+        let recentred = DatasetConfig {
+            features: FeatureSet::Recentred,
+            ..sizes()
+        };
         assert!(error(&recentred, &few).contains("none needs the network"));
-        let wrong = DatasetConfig { refresh: 1.5, ..sizes() };
-        assert_eq!(error(&wrong, &SynthConfig::paper()), "dataset.refresh = 1.5: must be from 0 to 1");
+        let wrong = DatasetConfig {
+            refresh: 1.5,
+            ..sizes()
+        };
+        assert_eq!(
+            error(&wrong, &SynthConfig::paper()),
+            "dataset.refresh = 1.5: must be from 0 to 1"
+        );
     }
 
     /// Whatever is asked for at a time, however wrong the foresight and however many the threads: the same rows of the same pixels.
     #[test]
     fn rows_depend_on_their_pixels_alone() {
-        let config = DatasetConfig { features: FeatureSet::Recentred, rows_per_pixel: 4, weights: Weighting::Image, ..sizes() };
+        let config = DatasetConfig {
+            features: FeatureSet::Recentred,
+            rows_per_pixel: 4,
+            weights: Weighting::Image,
+            ..sizes()
+        };
         let fresh = || RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training).unwrap();
         let mut stream = fresh();
         let whole = stream.take(5000, &|_| {}).unwrap();
@@ -423,11 +549,17 @@ mod tests {
         for expected in [(1, 1), (100, 1), (1, 100)] {
             for threads in [1, 3] {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                let again = pool.install(|| fresh().expecting(expected.0, expected.1).take(5000, &|_| {})).unwrap();
+                let again = pool
+                    .install(|| fresh().expecting(expected.0, expected.1).take(5000, &|_| {}))
+                    .unwrap();
                 assert!(again == whole, "{expected:?} on {threads} threads");
-                let parts = pool.install(|| Making::new(&fresh().expecting(expected.0, expected.1), 0, 5000, 7).finish()).unwrap();
+                let parts = pool
+                    .install(|| Making::new(&fresh().expecting(expected.0, expected.1), 0, 5000, 7).finish())
+                    .unwrap();
                 assert_eq!(count(&parts), (rows, pixels));
-                let all = parts.iter().flat_map(|part| (0..part.len()).map(move |i| part.row(i, 7)));
+                let all = parts
+                    .iter()
+                    .flat_map(|part| (0..part.len()).map(move |i| part.row(i, 7)));
                 assert!(all.eq((0..rows).map(|i| whole.row(i))));
             }
         }
@@ -436,7 +568,10 @@ mod tests {
         let first = stream.take(1234, &|n| assert!(n >= 1234)).unwrap();
         let second = stream.take(rows - first.len(), &|_| {}).unwrap();
         assert_eq!(stream.position(), pixels);
-        assert!([first.targets, second.targets].concat() == whole.targets && [first.weights, second.weights].concat() == whole.weights);
+        assert!(
+            [first.targets, second.targets].concat() == whole.targets
+                && [first.weights, second.weights].concat() == whole.weights
+        );
         assert!([first.features, second.features].concat() == whole.features);
         // Control: other pixels have other rows. None is asked for, none is made.
         stream.skip_to(1);

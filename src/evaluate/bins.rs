@@ -45,7 +45,11 @@ fn count_bin(n: usize) -> usize {
 
 /// Least and greatest number of fragments of a bin.
 fn counts_of(bin: usize) -> (u64, u64) {
-    if bin <= 4 { (bin as u64, bin as u64) } else { ((1 << (bin - 3)) + 1, 1 << (bin - 2)) }
+    if bin <= 4 {
+        (bin as u64, bin as u64)
+    } else {
+        ((1 << (bin - 3)) + 1, 1 << (bin - 2))
+    }
 }
 
 /// Lower end of a bin of alpha, and the upper end of the one before it.
@@ -67,7 +71,11 @@ fn alpha_bin(alpha: f32) -> usize {
 ///
 /// # Panics
 /// If the lengths do not fit the list.
-pub fn by_count(list: &FragmentList, transmittances: Option<(&[f64], &[f64])>, images: Option<(&Image, &Image)>) -> Vec<CountBin> {
+pub fn by_count(
+    list: &FragmentList,
+    transmittances: Option<(&[f64], &[f64])>,
+    images: Option<(&Image, &Image)>,
+) -> Vec<CountBin> {
     let bins = count_bin(list.depth_complexity()) + 1;
     let mut pixels = vec![0u64; bins];
     let mut fragments = vec![0u64; bins];
@@ -79,10 +87,16 @@ pub fn by_count(list: &FragmentList, transmittances: Option<(&[f64], &[f64])>, i
         pixels[bin] += 1;
         fragments[bin] += range.len() as u64;
         if let Some((weights, exact)) = transmittances {
-            weights[range.clone()].iter().zip(&exact[range]).for_each(|(&w, &e)| of_t[bin].add(w, e));
+            weights[range.clone()]
+                .iter()
+                .zip(&exact[range])
+                .for_each(|(&w, &e)| of_t[bin].add(w, e));
         }
         if let Some((image, exact)) = images {
-            image.pixels()[p].iter().zip(exact.pixels()[p]).for_each(|(&c, e)| of_image[bin].add(c, e));
+            image.pixels()[p]
+                .iter()
+                .zip(exact.pixels()[p])
+                .for_each(|(&c, e)| of_image[bin].add(c, e));
         }
     }
     (0..bins)
@@ -111,7 +125,11 @@ pub fn by_count(list: &FragmentList, transmittances: Option<(&[f64], &[f64])>, i
 /// # Panics
 /// If the lengths do not fit the list.
 pub fn by_alpha(list: &FragmentList, weights: &[f64], exact: &[f64]) -> Vec<AlphaBin> {
-    assert_eq!((weights.len(), exact.len()), (list.len(), list.len()), "one weight a fragment");
+    assert_eq!(
+        (weights.len(), exact.len()),
+        (list.len(), list.len()),
+        "one weight a fragment"
+    );
     let mut of_t = [AbsoluteError::default(); ALPHA_BINS];
     for ((&alpha, &w), &e) in list.alpha().iter().zip(weights).zip(exact) {
         of_t[alpha_bin(alpha)].add(w, e);
@@ -136,7 +154,18 @@ mod tests {
 
     #[test]
     fn counts_fall_into_their_bins() {
-        let expected = [(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 8), (9, 16), (17, 32), (33, 64), (65, 128)];
+        let expected = [
+            (0, 0),
+            (1, 1),
+            (2, 2),
+            (3, 3),
+            (4, 4),
+            (5, 8),
+            (9, 16),
+            (17, 32),
+            (33, 64),
+            (65, 128),
+        ];
         for (bin, &(least, most)) in expected.iter().enumerate() {
             assert_eq!(counts_of(bin), (least, most));
             assert_eq!((count_bin(least as usize), count_bin(most as usize)), (bin, bin));
@@ -150,7 +179,17 @@ mod tests {
 
     #[test]
     fn alphas_fall_into_their_bins() {
-        let cases = [(0.0, 0), (0.0999, 0), (0.1, 1), (0.3, 3), (0.599_999_9, 5), (0.6, 6), (0.7, 7), (0.95, 9), (1.0, 9)];
+        let cases = [
+            (0.0, 0),
+            (0.0999, 0),
+            (0.1, 1),
+            (0.3, 3),
+            (0.599_999_9, 5),
+            (0.6, 6),
+            (0.7, 7),
+            (0.95, 9),
+            (1.0, 9),
+        ];
         for (alpha, bin) in cases {
             assert_eq!(alpha_bin(alpha), bin, "{alpha}");
         }
@@ -166,11 +205,25 @@ mod tests {
             offsets.push(offsets[p as usize] + n);
         }
         let n = offsets[400] as usize;
-        let alpha: Vec<f32> = (0..n).map(|i| [0.0, 1.0, 0.5, rng.random_range(0.0..1.0)][i % 4]).collect();
-        let list = FragmentList::new(offsets, vec![1.0; n], alpha, None).unwrap().with_size(20, 20).unwrap();
+        let alpha: Vec<f32> = (0..n)
+            .map(|i| [0.0, 1.0, 0.5, rng.random_range(0.0..1.0)][i % 4])
+            .collect();
+        let list = FragmentList::new(offsets, vec![1.0; n], alpha, None)
+            .unwrap()
+            .with_size(20, 20)
+            .unwrap();
         let exact: Vec<f64> = (0..n).map(|_| rng.random_range(0.0..1.0)).collect();
         let weights = exact.iter().map(|e| e + rng.random_range(-0.1..0.1)).collect();
-        let mut image = || Image::new(20, 20, (0..400).map(|_| std::array::from_fn(|_| rng.random_range(0.0..1.0))).collect()).unwrap();
+        let mut image = || {
+            Image::new(
+                20,
+                20,
+                (0..400)
+                    .map(|_| std::array::from_fn(|_| rng.random_range(0.0..1.0)))
+                    .collect(),
+            )
+            .unwrap()
+        };
         (list, weights, exact, image(), image())
     }
 
@@ -186,18 +239,36 @@ mod tests {
         assert_eq!(counts.iter().map(|b| b.pixels).sum::<u64>(), 400);
         assert_eq!(counts.iter().map(|b| b.fragments).sum::<u64>(), list.len() as u64);
         assert_eq!(alphas.iter().map(|b| b.fragments).sum::<u64>(), list.len() as u64);
-        assert!(counts[0].most_fragments_per_pixel == 0 && counts[0].pixels == 58 && counts[0].transmittance_mse.is_none());
+        assert!(
+            counts[0].most_fragments_per_pixel == 0 && counts[0].pixels == 58 && counts[0].transmittance_mse.is_none()
+        );
 
         let off = |pairs: &[(u64, Option<f64>)], whole: f64| {
             let total: u64 = pairs.iter().map(|p| p.0).sum();
             let weighted = pairs.iter().filter_map(|&(n, e)| e.map(|e| n as f64 * e)).sum::<f64>() / total as f64;
-            let plain = pairs.iter().filter_map(|p| p.1).sum::<f64>() / pairs.iter().filter(|p| p.1.is_some()).count() as f64;
+            let plain =
+                pairs.iter().filter_map(|p| p.1).sum::<f64>() / pairs.iter().filter(|p| p.1.is_some()).count() as f64;
             [weighted, plain].map(|mean| (mean / whole - 1.0).abs())
         };
         let cases = [
-            off(&counts.iter().map(|b| (b.fragments, b.transmittance_mse)).collect::<Vec<_>>(), whole),
-            off(&alphas.iter().map(|b| (b.fragments, b.transmittance_mse)).collect::<Vec<_>>(), whole),
-            off(&counts.iter().map(|b| (b.pixels, b.image_mse)).collect::<Vec<_>>(), whole_image),
+            off(
+                &counts
+                    .iter()
+                    .map(|b| (b.fragments, b.transmittance_mse))
+                    .collect::<Vec<_>>(),
+                whole,
+            ),
+            off(
+                &alphas
+                    .iter()
+                    .map(|b| (b.fragments, b.transmittance_mse))
+                    .collect::<Vec<_>>(),
+                whole,
+            ),
+            off(
+                &counts.iter().map(|b| (b.pixels, b.image_mse)).collect::<Vec<_>>(),
+                whole_image,
+            ),
         ];
         for (i, [weighted, plain]) in cases.into_iter().enumerate() {
             assert!(weighted <= 1e-12, "{i}: {weighted}");
@@ -212,11 +283,17 @@ mod tests {
         let exact = [1.0, 1.0, 0.5];
         let weights = [1.0, f64::NAN, 0.75];
         let counts = by_count(&list, Some((&weights, &exact)), None);
-        assert_eq!((counts.len(), counts[0].transmittance_mse, counts[0].image_mse), (2, Some(0.0), None));
+        assert_eq!(
+            (counts.len(), counts[0].transmittance_mse, counts[0].image_mse),
+            (2, Some(0.0), None)
+        );
         assert!(counts[1].transmittance_mse.unwrap().is_nan());
         let alphas = by_alpha(&list, &weights, &exact);
         assert_eq!(alphas.iter().map(|b| b.fragments).collect::<Vec<_>>(), [1, 1, 1]);
-        assert_eq!((alphas[0].transmittance_mse, alphas[2].transmittance_mse), (Some(0.0), Some(0.0625)));
+        assert_eq!(
+            (alphas[0].transmittance_mse, alphas[2].transmittance_mse),
+            (Some(0.0), Some(0.0625))
+        );
         assert!(alphas[1].transmittance_mse.unwrap().is_nan());
     }
 

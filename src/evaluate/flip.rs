@@ -69,13 +69,16 @@ fn flip_at(reference: &Image, test: &Image, pixels_per_degree: f64) -> Result<Fl
     let columns = width as usize;
     let observer = Observer::new(pixels_per_degree);
     let mut values = vec![0.0; reference.pixels().len()];
-    values.par_chunks_mut(BAND * columns).enumerate().for_each(|(band, out)| {
-        let rows = band * BAND..band * BAND + out.len() / columns;
-        let (reference, test) = (observer.percept(reference, rows.clone()), observer.percept(test, rows));
-        for (out, (a, b)) in out.iter_mut().zip(reference.iter().zip(&test)) {
-            *out = observer.difference(a, b) as f32;
-        }
-    });
+    values
+        .par_chunks_mut(BAND * columns)
+        .enumerate()
+        .for_each(|(band, out)| {
+            let rows = band * BAND..band * BAND + out.len() / columns;
+            let (reference, test) = (observer.percept(reference, rows.clone()), observer.percept(test, rows));
+            for (out, (a, b)) in out.iter_mut().zip(reference.iter().zip(&test)) {
+                *out = observer.difference(a, b) as f32;
+            }
+        });
     Ok(FlipMap { width, height, values })
 }
 
@@ -132,10 +135,21 @@ const WHITE: [f64; 2] = [0.31271, 0.32902];
 impl Observer {
     fn new(pixels_per_degree: f64) -> Self {
         // CSF filters: all reach as far as three standard deviations of the widest.
-        let widest = [ACHROMATIC, RED_GREEN, BLUE_YELLOW[0], BLUE_YELLOW[1]].iter().fold(0.0f64, |w, g| w.max(g.1));
+        let widest = [ACHROMATIC, RED_GREEN, BLUE_YELLOW[0], BLUE_YELLOW[1]]
+            .iter()
+            .fold(0.0f64, |w, g| w.max(g.1));
         let reach = (3.0 * (widest / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i32;
-        let gaussian = |b: f64| -> Taps { (-reach..=reach).map(|x| (-PI * PI * (f64::from(x) / pixels_per_degree).powi(2) / b).exp()).collect() };
-        let [wide, narrow] = BLUE_YELLOW.map(|(a, b)| (a * (PI / b).sqrt() * gaussian(b).iter().sum::<f64>().powi(2), gaussian(b)));
+        let gaussian = |b: f64| -> Taps {
+            (-reach..=reach)
+                .map(|x| (-PI * PI * (f64::from(x) / pixels_per_degree).powi(2) / b).exp())
+                .collect()
+        };
+        let [wide, narrow] = BLUE_YELLOW.map(|(a, b)| {
+            (
+                a * (PI / b).sqrt() * gaussian(b).iter().sum::<f64>().powi(2),
+                gaussian(b),
+            )
+        });
         let mix = [wide.0 / (wide.0 + narrow.0), narrow.0 / (wide.0 + narrow.0)];
         let sensitivity = [gaussian(ACHROMATIC.1), gaussian(RED_GREEN.1), wide.1, narrow.1].map(|taps| {
             let sum: f64 = taps.iter().sum();
@@ -154,11 +168,27 @@ impl Observer {
             let taps: Taps = taps.collect();
             let positive: f64 = taps.iter().filter(|t| **t > 0.0).sum();
             let negative: f64 = -taps.iter().filter(|t| **t < 0.0).sum::<f64>();
-            taps.into_iter().map(|t| t / if t > 0.0 { positive } else { negative.max(f64::MIN_POSITIVE) }).collect()
+            taps.into_iter()
+                .map(|t| {
+                    t / if t > 0.0 {
+                        positive
+                    } else {
+                        negative.max(f64::MIN_POSITIVE)
+                    }
+                })
+                .collect()
         });
 
         let to_xyz = primaries_to_xyz();
-        let mut observer = Self { sensitivity, mix, feature, greatest: 1.0, from_xyz: inverse(&to_xyz), white: apply(&to_xyz, [1.0; 3]), to_xyz };
+        let mut observer = Self {
+            sensitivity,
+            mix,
+            feature,
+            greatest: 1.0,
+            from_xyz: inverse(&to_xyz),
+            white: apply(&to_xyz, [1.0; 3]),
+            to_xyz,
+        };
         observer.greatest = hyab(&observer.lab([0.0, 1.0, 0.0]), &observer.lab([0.0, 0.0, 1.0])).powf(Q_C);
         observer
     }
@@ -185,7 +215,11 @@ impl Observer {
                 padded[reach + width..].fill(last);
             }
             for (k, plane) in planes.iter_mut().enumerate() {
-                let (taps, channel) = if k < 4 { (&self.sensitivity[k], k.min(2)) } else { (&self.feature[k - 4], 0) };
+                let (taps, channel) = if k < 4 {
+                    (&self.sensitivity[k], k.min(2))
+                } else {
+                    (&self.feature[k - 4], 0)
+                };
                 let start = reach - taps.len() / 2;
                 let out = &mut plane[i * width..(i + 1) * width];
                 for (j, &tap) in taps.iter().enumerate() {
@@ -200,12 +234,24 @@ impl Observer {
         // Which plane each sum is of, and the filter across: the colours, then G'x, G'y, G''x, G''y.
         let [smooth, slope, bend] = &self.feature;
         let [a, rg, wide, narrow] = &self.sensitivity;
-        let passes = [(0, a), (1, rg), (2, wide), (3, narrow), (5, smooth), (4, slope), (6, smooth), (4, bend)];
+        let passes = [
+            (0, a),
+            (1, rg),
+            (2, wide),
+            (3, narrow),
+            (5, smooth),
+            (4, slope),
+            (6, smooth),
+            (4, bend),
+        ];
         for (y, out) in rows.zip(percepts.chunks_exact_mut(width)) {
             for (sum, (plane, taps)) in sums.iter_mut().zip(passes) {
                 sum.fill(0.0);
                 for (j, &tap) in taps.iter().enumerate() {
-                    let from = (y + j).saturating_sub(taps.len() / 2).clamp(source.start, source.end - 1) - above;
+                    let from = (y + j)
+                        .saturating_sub(taps.len() / 2)
+                        .clamp(source.start, source.end - 1)
+                        - above;
                     accumulate(sum, tap, &planes[plane][from * width..(from + 1) * width]);
                 }
             }
@@ -222,7 +268,12 @@ impl Observer {
 
     /// Pixels that the widest filter reaches to each side.
     fn reach(&self) -> usize {
-        self.sensitivity.iter().chain(&self.feature).map(|taps| taps.len() / 2).max().unwrap_or(0)
+        self.sensitivity
+            .iter()
+            .chain(&self.feature)
+            .map(|taps| taps.len() / 2)
+            .max()
+            .unwrap_or(0)
     }
 
     /// Display colour to the linear opponent space YCxCz (lightness, red-green, blue-yellow), in which the eye's blur is described.
@@ -232,7 +283,11 @@ impl Observer {
                 return f64::NAN;
             }
             let v = f64::from(v.clamp(0.0, 1.0) as f32);
-            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            if v <= 0.04045 {
+                v / 12.92
+            } else {
+                ((v + 0.055) / 1.055).powf(2.4)
+            }
         });
         let [x, y, z] = apply(&self.to_xyz, linear);
         let (x, y, z) = (x / self.white[0], y / self.white[1], z / self.white[2]);
@@ -242,7 +297,11 @@ impl Observer {
     /// YCxCz to linear RGB, kept within [0, 1].
     fn linear(&self, [lightness, red_green, blue_yellow]: [f64; 3]) -> [f64; 3] {
         let y = (lightness + 16.0) / 116.0;
-        let xyz = [(y + red_green / 500.0) * self.white[0], y * self.white[1], (y - blue_yellow / 200.0) * self.white[2]];
+        let xyz = [
+            (y + red_green / 500.0) * self.white[0],
+            y * self.white[1],
+            (y - blue_yellow / 200.0) * self.white[2],
+        ];
         apply(&self.from_xyz, xyz).map(|v| v.clamp(0.0, 1.0))
     }
 
@@ -252,17 +311,29 @@ impl Observer {
         let xyz = apply(&self.to_xyz, linear);
         let [x, y, z] = std::array::from_fn(|i| {
             let t: f64 = xyz[i] / self.white[i];
-            if t > DELTA * DELTA * DELTA { t.cbrt() } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 }
+            if t > DELTA * DELTA * DELTA {
+                t.cbrt()
+            } else {
+                t / (3.0 * DELTA * DELTA) + 4.0 / 29.0
+            }
         });
         let lightness = 116.0 * y - 16.0;
-        [lightness, 0.01 * lightness * 500.0 * (x - y), 0.01 * lightness * 200.0 * (y - z)]
+        [
+            lightness,
+            0.01 * lightness * 500.0 * (x - y),
+            0.01 * lightness * 200.0 * (y - z),
+        ]
     }
 
     /// The difference of two pixels: that of their colours, raised where features differ.
     fn difference(&self, a: &Percept, b: &Percept) -> f64 {
         let color = hyab(&a.lab, &b.lab).powf(Q_C);
         let knee = P_C * self.greatest;
-        let color = if color < knee { P_T * color / knee } else { P_T + (color - knee) / (self.greatest - knee) * (1.0 - P_T) };
+        let color = if color < knee {
+            P_T * color / knee
+        } else {
+            P_T + (color - knee) / (self.greatest - knee) * (1.0 - P_T)
+        };
         // Not f64::max, which would drop a NaN.
         let (edge, point) = ((a.edge - b.edge).abs(), (a.point - b.point).abs());
         let feature = if edge > point { edge } else { point };
@@ -322,13 +393,19 @@ mod tests {
 
     fn image(width: u32, height: u32, channel: Channel) -> Image {
         let pixels = (0..i64::from(height))
-            .flat_map(|y| (0..i64::from(width)).map(move |x| [0, 1, 2].map(|c| f64::from(channel(x, y, c) as f32 / 255.0))))
+            .flat_map(|y| {
+                (0..i64::from(width)).map(move |x| [0, 1, 2].map(|c| f64::from(channel(x, y, c) as f32 / 255.0)))
+            })
             .collect();
         Image::new(width, height, pixels).unwrap()
     }
 
     fn disc(x: i64, y: i64, inside: i64) -> i64 {
-        if (x - 20).pow(2) + (y - 17).pow(2) < 150 { inside } else { 255 }
+        if (x - 20).pow(2) + (y - 17).pow(2) < 150 {
+            inside
+        } else {
+            255
+        }
     }
 
     /// Name, size, both images, and what flip-evaluator says of them: mean, map at the first pixel, at (width/3, height/2), at the last.
@@ -345,7 +422,15 @@ mod tests {
             0.09094811,
             [0.0752472, 0.0843241, 0.1075489],
         ),
-        ("two noises", 64, 48, |x, y, c| noise(x, y, c, 2), |x, y, c| noise(x, y, c, 3), 0.43256364, [0.7078713, 0.3295628, 0.7057306]),
+        (
+            "two noises",
+            64,
+            48,
+            |x, y, c| noise(x, y, c, 2),
+            |x, y, c| noise(x, y, c, 3),
+            0.43256364,
+            [0.7078713, 0.3295628, 0.7057306],
+        ),
         (
             "a checkerboard moved by a pixel",
             64,
@@ -364,21 +449,55 @@ mod tests {
             0.02980995,
             [0.0, 0.0870452, 0.0],
         ),
-        ("green against blue", 32, 24, |_, _, c| 255 * i64::from(c == 1), |_, _, c| 255 * i64::from(c == 2), 1.0, [1.0; 3]),
-        ("smaller than the filters", 5, 3, |x, y, c| noise(x, y, c, 4), |x, y, c| noise(x, y, c, 5), 0.61657410, [0.6371025, 0.3731822, 0.6282905]),
-        ("one pixel", 1, 1, |_, _, c| 10 + 90 * c, |_, _, c| 100 - 20 * c, 0.69897366, [0.6989737; 3]),
+        (
+            "green against blue",
+            32,
+            24,
+            |_, _, c| 255 * i64::from(c == 1),
+            |_, _, c| 255 * i64::from(c == 2),
+            1.0,
+            [1.0; 3],
+        ),
+        (
+            "smaller than the filters",
+            5,
+            3,
+            |x, y, c| noise(x, y, c, 4),
+            |x, y, c| noise(x, y, c, 5),
+            0.61657410,
+            [0.6371025, 0.3731822, 0.6282905],
+        ),
+        (
+            "one pixel",
+            1,
+            1,
+            |_, _, c| 10 + 90 * c,
+            |_, _, c| 100 - 20 * c,
+            0.69897366,
+            [0.6989737; 3],
+        ),
     ];
 
     /// Greatest distance of our mean, and of our map at the pinned pixels, from flip-evaluator's over all cases.
     fn worst(pixels_per_degree: f64) -> (f64, f64) {
         let (mut mean, mut pixel) = (0.0f64, 0.0f64);
         for (name, width, height, reference, test, expected, places) in CASES {
-            let map = flip_at(&image(width, height, reference), &image(width, height, test), pixels_per_degree).unwrap();
+            let map = flip_at(
+                &image(width, height, reference),
+                &image(width, height, test),
+                pixels_per_degree,
+            )
+            .unwrap();
             let at = |x: u32, y: u32| f64::from(map.values()[(y * width + x) as usize]);
             let ours = [at(0, 0), at(width / 3, height / 2), at(width - 1, height - 1)];
             assert!(map.mean().is_finite() && ours.iter().all(|v| v.is_finite()), "{name}");
-            let (of_mean, of_pixels) = ((map.mean() - expected).abs(), ours.iter().zip(places).fold(0.0f64, |w, (a, b)| w.max((a - b).abs())));
-            println!("{pixels_per_degree} pixels per degree, {name}: mean off by {of_mean:.1e}, single pixels by {of_pixels:.1e}");
+            let (of_mean, of_pixels) = (
+                (map.mean() - expected).abs(),
+                ours.iter().zip(places).fold(0.0f64, |w, (a, b)| w.max((a - b).abs())),
+            );
+            println!(
+                "{pixels_per_degree} pixels per degree, {name}: mean off by {of_mean:.1e}, single pixels by {of_pixels:.1e}"
+            );
             (mean, pixel) = (mean.max(of_mean), pixel.max(of_pixels));
         }
         (mean, pixel)
@@ -402,7 +521,10 @@ mod tests {
         let short = flip(&image(9, short, a), &image(9, short, b)).unwrap();
         let long = flip(&image(9, long, a), &image(9, long, b)).unwrap();
         assert_eq!(short.values()[..BAND * 9], long.values()[..BAND * 9]);
-        assert_ne!(short.values()[BAND * 9..], long.values()[BAND * 9..short.values().len()]);
+        assert_ne!(
+            short.values()[BAND * 9..],
+            long.values()[BAND * 9..short.values().len()]
+        );
     }
 
     proptest! {
@@ -438,6 +560,12 @@ mod tests {
     #[test]
     fn images_of_different_size_are_refused() {
         let error = flip(&image(2, 3, |_, _, _| 0), &image(3, 2, |_, _, _| 0)).unwrap_err();
-        assert!(matches!(error, EvaluateError::SizesDiffer { reference: (2, 3), test: (3, 2) }));
+        assert!(matches!(
+            error,
+            EvaluateError::SizesDiffer {
+                reference: (2, 3),
+                test: (3, 2)
+            }
+        ));
     }
 }

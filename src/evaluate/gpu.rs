@@ -88,7 +88,14 @@ fn render(
         return passes.render(gpu, skip);
     }
     let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(gpu, &drawing, &method.clone().with_skip(skip), range, background, storage)?;
+    let pipeline = Pipeline::new(
+        gpu,
+        &drawing,
+        &method.clone().with_skip(skip),
+        range,
+        background,
+        storage,
+    )?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
 }
@@ -112,8 +119,20 @@ pub fn judge(
     cpu: &Image,
 ) -> Result<GpuJudged, EvaluateError> {
     let list = truth.list();
-    let rendered = render(gpu, method, list, context, truth.background().map(|c| c as f32), storage, skip)?;
-    let image = Image::new(rendered.width, rendered.height, rendered.pixels.iter().map(|p| p.map(f64::from)).collect())?;
+    let rendered = render(
+        gpu,
+        method,
+        list,
+        context,
+        truth.background().map(|c| c as f32),
+        storage,
+        skip,
+    )?;
+    let image = Image::new(
+        rendered.width,
+        rendered.height,
+        rendered.pixels.iter().map(|p| p.map(f64::from)).collect(),
+    )?;
     let differences = channel_differences(&image, cpu)?;
     let map = flip(cpu, &image)?;
     let exact = super::image::ground_truth(list, truth.background())?;
@@ -122,8 +141,14 @@ pub fn judge(
         method: method.name.clone(),
         adapter: gpu.name(),
         passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
-        storage: if is_drawn(gpu, storage) { storage } else { Storage::Full }.name().to_owned(),
-        channel_difference_999: within_999((0..list.pixels()).filter(|&p| !list.range(p).is_empty()).map(|p| differences[p])),
+        storage: if is_drawn(gpu, storage) { storage } else { Storage::Full }
+            .name()
+            .to_owned(),
+        channel_difference_999: within_999(
+            (0..list.pixels())
+                .filter(|&p| !list.range(p).is_empty())
+                .map(|p| differences[p]),
+        ),
         channel_difference_worst: differences.iter().fold(0.0, |m, d| d.max(m)),
         flip_mean_to_cpu: map.mean(),
         image_mse: error.mse(),
@@ -150,7 +175,10 @@ mod tests {
     fn the_quantile_keeps_the_worst_thousandth_out() {
         let values = (0..2000).map(f64::from);
         assert_eq!(within_999(values), 1997.0);
-        assert_eq!((within_999([]), within_999([3.0]), within_999([1.0, f64::INFINITY])), (0.0, 3.0, f64::INFINITY));
+        assert_eq!(
+            (within_999([]), within_999([3.0]), within_999([1.0, f64::INFINITY])),
+            (0.0, 3.0, f64::INFINITY)
+        );
     }
 
     /// NaN on either side is infinitely far off; one channel is enough.
@@ -172,12 +200,43 @@ mod tests {
         let truth = Truth::new(&list, [0.2, 0.4, 1.0]);
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
         let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
-        let cpu = truth.judge(&Neural::new(mlp), Context::default()).unwrap().picture.unwrap().0;
-        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, Skip::Exact, &cpu).unwrap().result;
-        assert!(found.channel_difference_worst <= 1e-5 && found.flip_mean_to_cpu <= 1e-4 && found.image_mse <= 1e-9, "{found:?}");
+        let cpu = truth
+            .judge(&Neural::new(mlp), Context::default())
+            .unwrap()
+            .picture
+            .unwrap()
+            .0;
+        let found = judge(
+            gpu,
+            &method,
+            &truth,
+            Context::default(),
+            Storage::Full,
+            Skip::Exact,
+            &cpu,
+        )
+        .unwrap()
+        .result;
+        assert!(
+            found.channel_difference_worst <= 1e-5 && found.flip_mean_to_cpu <= 1e-4 && found.image_mse <= 1e-9,
+            "{found:?}"
+        );
         assert_eq!((found.image_nonfinite, found.adapter), (0, gpu.name()));
         let other = Image::new(40, 30, cpu.pixels().iter().map(|p| [p[1], p[2], p[0]]).collect()).unwrap();
-        let found = judge(gpu, &method, &truth, Context::default(), Storage::Full, Skip::Exact, &other).unwrap().result;
-        assert!(found.channel_difference_999 > 0.1 && found.flip_mean_to_cpu > 0.01, "{found:?}");
+        let found = judge(
+            gpu,
+            &method,
+            &truth,
+            Context::default(),
+            Storage::Full,
+            Skip::Exact,
+            &other,
+        )
+        .unwrap()
+        .result;
+        assert!(
+            found.channel_difference_999 > 0.1 && found.flip_mean_to_cpu > 0.01,
+            "{found:?}"
+        );
     }
 }

@@ -24,7 +24,11 @@ impl Image {
     /// [`EvaluateError::NoPixels`] for an image without pixels, [`EvaluateError::PixelCount`] where their number is not width times height.
     pub fn new(width: u32, height: u32, pixels: Vec<[f64; 3]>) -> Result<Self, EvaluateError> {
         if pixels.len() as u64 != u64::from(width) * u64::from(height) {
-            return Err(EvaluateError::PixelCount { width, height, pixels: pixels.len() });
+            return Err(EvaluateError::PixelCount {
+                width,
+                height,
+                pixels: pixels.len(),
+            });
         }
         if pixels.is_empty() {
             return Err(EvaluateError::NoPixels { width, height });
@@ -53,7 +57,10 @@ impl Image {
     /// [`EvaluateError::SizesDiffer`].
     pub fn error(&self, reference: &Self) -> Result<ImageError, EvaluateError> {
         same_size(reference, self)?;
-        Ok(ImageError(AbsoluteError::of(self.pixels.as_flattened(), reference.pixels.as_flattened())))
+        Ok(ImageError(AbsoluteError::of(
+            self.pixels.as_flattened(),
+            reference.pixels.as_flattened(),
+        )))
     }
 }
 
@@ -62,7 +69,10 @@ pub(super) fn same_size(reference: &Image, test: &Image) -> Result<(), EvaluateE
     if (reference.width, reference.height) == (test.width, test.height) {
         return Ok(());
     }
-    Err(EvaluateError::SizesDiffer { reference: (reference.width, reference.height), test: (test.width, test.height) })
+    Err(EvaluateError::SizesDiffer {
+        reference: (reference.width, reference.height),
+        test: (test.width, test.height),
+    })
 }
 
 /// Difference of two images, channel by channel; all pixels count, empty ones too, and nothing is clamped.
@@ -101,9 +111,16 @@ pub fn size_of(list: &FragmentList) -> Result<(u32, u32), EvaluateError> {
     Ok((width, height))
 }
 
-fn from_pixels(list: &FragmentList, color: impl Fn(usize, Pixel<'_>) -> [f64; 3] + Sync) -> Result<Image, EvaluateError> {
+fn from_pixels(
+    list: &FragmentList,
+    color: impl Fn(usize, Pixel<'_>) -> [f64; 3] + Sync,
+) -> Result<Image, EvaluateError> {
     let (width, height) = size_of(list)?;
-    let pixels = (0..list.pixels()).into_par_iter().with_min_len(256).map(|p| color(p, list.pixel(p))).collect();
+    let pixels = (0..list.pixels())
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|p| color(p, list.pixel(p)))
+        .collect();
     Image::new(width, height, pixels)
 }
 
@@ -128,9 +145,16 @@ pub fn ground_truth(list: &FragmentList, background: [f64; 3]) -> Result<Image, 
 ///
 /// # Panics
 /// If there is not one weight a fragment.
-pub fn of_method(list: &FragmentList, accumulated: &dyn Accumulated, weights: &[f64], background: [f64; 3]) -> Result<Image, EvaluateError> {
+pub fn of_method(
+    list: &FragmentList,
+    accumulated: &dyn Accumulated,
+    weights: &[f64],
+    background: [f64; 3],
+) -> Result<Image, EvaluateError> {
     assert_eq!(weights.len(), list.len(), "one weight a fragment");
-    from_pixels(list, |p, pixel| accumulated.composite(pixel, p, &weights[list.range(p)], background))
+    from_pixels(list, |p, pixel| {
+        accumulated.composite(pixel, p, &weights[list.range(p)], background)
+    })
 }
 
 #[cfg(test)]
@@ -175,7 +199,11 @@ mod tests {
             let method = Shifted(offset);
             let accumulated = method.accumulate(&list, Context::default()).unwrap();
             let weights = oit::weights(&list, &*accumulated);
-            of_method(&list, &*accumulated, &weights, [1.0; 3]).unwrap().error(&truth).unwrap().mse()
+            of_method(&list, &*accumulated, &weights, [1.0; 3])
+                .unwrap()
+                .error(&truth)
+                .unwrap()
+                .mse()
         };
         assert!(mse(0.0) < 1e-28, "{}", mse(0.0));
         assert!(mse(0.1) > 1e-6, "{}", mse(0.1));
@@ -183,13 +211,20 @@ mod tests {
 
     #[test]
     fn a_list_of_empty_pixels_shows_the_background() {
-        let list = FragmentList::new(vec![0; 7], vec![], vec![], None).unwrap().with_size(3, 2).unwrap();
-        assert_eq!(ground_truth(&list, [0.1, 0.2, 0.3]).unwrap().pixels(), [[0.1, 0.2, 0.3]; 6]);
+        let list = FragmentList::new(vec![0; 7], vec![], vec![], None)
+            .unwrap()
+            .with_size(3, 2)
+            .unwrap();
+        assert_eq!(
+            ground_truth(&list, [0.1, 0.2, 0.3]).unwrap().pixels(),
+            [[0.1, 0.2, 0.3]; 6]
+        );
     }
 
     #[test]
     fn errors_say_what_is_missing() {
-        let list = |offsets: &[u64], n: usize| FragmentList::new(offsets.to_vec(), vec![1.0; n], vec![0.5; n], None).unwrap();
+        let list =
+            |offsets: &[u64], n: usize| FragmentList::new(offsets.to_vec(), vec![1.0; n], vec![0.5; n], None).unwrap();
         let messages = [
             ground_truth(&list(&[0, 1], 1), [1.0; 3]).unwrap_err(),
             ground_truth(&list(&[0, 1], 1).with_size(1, 1).unwrap(), [1.0; 3]).unwrap_err(),

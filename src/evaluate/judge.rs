@@ -70,7 +70,12 @@ pub struct Judged {
 impl<'a> Truth<'a> {
     /// The exact answer for a list before a background of linear colour.
     pub fn new(list: &'a FragmentList, background: [f64; 3]) -> Self {
-        Self { list, background, transmittance: abuffer::list_transmittance(list), image: image::ground_truth(list, background) }
+        Self {
+            list,
+            background,
+            transmittance: abuffer::list_transmittance(list),
+            image: image::ground_truth(list, background),
+        }
     }
 
     /// The list.
@@ -115,7 +120,10 @@ impl<'a> Truth<'a> {
         };
         let error = picture.as_ref().map(|(error, ..)| error);
         let pair = stated.then_some((&weights[..], &self.transmittance[..]));
-        let images = picture.as_ref().zip(self.image.as_ref().ok()).map(|((_, image, _), exact)| (image, exact));
+        let images = picture
+            .as_ref()
+            .zip(self.image.as_ref().ok())
+            .map(|((_, image, _), exact)| (image, exact));
         let result = MethodResult {
             method: method.name(),
             bits_per_pixel: method.bits_per_pixel(),
@@ -133,7 +141,10 @@ impl<'a> Truth<'a> {
             by_fragments_per_pixel: Some(bins::by_count(self.list, pair, images)),
             by_alpha: pair.map(|(weights, exact)| bins::by_alpha(self.list, weights, exact)),
         };
-        Ok(Judged { result, picture: picture.map(|(_, image, map)| (image, map)) })
+        Ok(Judged {
+            result,
+            picture: picture.map(|(_, image, map)| (image, map)),
+        })
     }
 }
 
@@ -171,7 +182,11 @@ pub fn by_error(a: &MethodResult, b: &MethodResult) -> Ordering {
         (error.map_or(2, |e| u8::from(e.is_nan())), error.unwrap_or(0.0).abs())
     };
     let (a_key, b_key) = (key(a), key(b));
-    a_key.0.cmp(&b_key.0).then(a_key.1.total_cmp(&b_key.1)).then_with(|| a.method.cmp(&b.method))
+    a_key
+        .0
+        .cmp(&b_key.0)
+        .then(a_key.1.total_cmp(&b_key.1))
+        .then_with(|| a.method.cmp(&b.method))
 }
 
 #[cfg(test)]
@@ -196,7 +211,11 @@ pub(super) mod tests {
             64
         }
 
-        fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+        fn accumulate<'a>(
+            &'a self,
+            list: &'a FragmentList,
+            _: Context,
+        ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
             Ok(Box::new(Answers(list, self.0)))
         }
     }
@@ -239,11 +258,17 @@ pub(super) mod tests {
 
     /// Three overlapping discs of different colour, opacity and depth, in no order; no two depths of a pixel tie.
     pub fn colored_list(width: u32, height: u32) -> FragmentList {
-        let discs: [(f64, f64, f32, f32, [f32; 3]); 3] =
-            [(0.40, 0.40, 3.0, 0.4, [0.9, 0.2, 0.1]), (0.60, 0.45, 2.0, 0.7, [0.1, 0.7, 0.2]), (0.50, 0.65, 4.0, 0.9, [0.1, 0.2, 0.9])];
+        let discs: [(f64, f64, f32, f32, [f32; 3]); 3] = [
+            (0.40, 0.40, 3.0, 0.4, [0.9, 0.2, 0.1]),
+            (0.60, 0.45, 2.0, 0.7, [0.1, 0.7, 0.2]),
+            (0.50, 0.65, 4.0, 0.9, [0.1, 0.2, 0.9]),
+        ];
         let (mut offsets, mut view_z, mut alpha, mut color) = (vec![0], vec![], vec![], vec![]);
         for p in 0..width * height {
-            let (x, y) = (f64::from(p % width) / f64::from(width), f64::from(p / width) / f64::from(height));
+            let (x, y) = (
+                f64::from(p % width) / f64::from(width),
+                f64::from(p / width) / f64::from(height),
+            );
             for (cx, cy, z, a, c) in discs {
                 if (x - cx).hypot(y - cy) < 0.3 {
                     view_z.push(z);
@@ -253,23 +278,41 @@ pub(super) mod tests {
             }
             offsets.push(view_z.len() as u64);
         }
-        FragmentList::new(offsets, view_z, alpha, Some(color)).unwrap().with_size(width, height).unwrap()
+        FragmentList::new(offsets, view_z, alpha, Some(color))
+            .unwrap()
+            .with_size(width, height)
+            .unwrap()
     }
 
     fn methods(offsets: &[f64]) -> Vec<Box<dyn Method>> {
-        offsets.iter().map(|&o| Box::new(Shifted(o)) as Box<dyn Method>).collect()
+        offsets
+            .iter()
+            .map(|&o| Box::new(Shifted(o)) as Box<dyn Method>)
+            .collect()
     }
 
     /// An offset of 0.1 is a T-MSE of 0.01 and a worst error of 0.1 (to 1e-15); the rows come sorted, NaN last.
     #[test]
     fn errors_and_their_order() {
         let list = colored_list(20, 15);
-        let results = evaluate(&list, &methods(&[f64::NAN, 0.1, 0.0, 0.01]), Context::default(), [1.0; 3]).unwrap();
+        let results = evaluate(
+            &list,
+            &methods(&[f64::NAN, 0.1, 0.0, 0.01]),
+            Context::default(),
+            [1.0; 3],
+        )
+        .unwrap();
         let names: Vec<_> = results.iter().map(|r| r.method.as_str()).collect();
         assert_eq!(names, ["shifted:0", "shifted:0.01", "shifted:0.1", "shifted:NaN"]);
         let [exact, _, off, nan] = &results[..] else { panic!() };
-        assert_eq!((exact.transmittance_mse, exact.flip_mean, exact.nonfinite), (Some(0.0), Some(0.0), 0));
-        assert!((off.transmittance_mse.unwrap() - 0.01).abs() < 1e-15 && (off.transmittance_worst_error.unwrap() - 0.1).abs() < 1e-15);
+        assert_eq!(
+            (exact.transmittance_mse, exact.flip_mean, exact.nonfinite),
+            (Some(0.0), Some(0.0), 0)
+        );
+        assert!(
+            (off.transmittance_mse.unwrap() - 0.01).abs() < 1e-15
+                && (off.transmittance_worst_error.unwrap() - 0.1).abs() < 1e-15
+        );
         assert!(off.flip_mean.unwrap() > 1e-3 && off.image_psnr_db.unwrap() < 60.0);
         assert_eq!(nan.nonfinite, list.len() as u64);
         assert!(nan.transmittance_mse.unwrap().is_nan() && nan.transmittance_worst_error.unwrap().is_nan());
@@ -281,25 +324,61 @@ pub(super) mod tests {
     fn bins_are_of_the_whole_list() {
         let list = colored_list(20, 15);
         let results = evaluate(&list, &methods(&[0.1]), Context::default(), [1.0; 3]).unwrap();
-        let [MethodResult { transmittance_mse: Some(t), image_mse: Some(i), by_fragments_per_pixel: Some(counts), by_alpha: Some(alphas), .. }] =
-            &results[..]
+        let [
+            MethodResult {
+                transmittance_mse: Some(t),
+                image_mse: Some(i),
+                by_fragments_per_pixel: Some(counts),
+                by_alpha: Some(alphas),
+                ..
+            },
+        ] = &results[..]
         else {
             panic!()
         };
         let n = list.len() as f64;
-        let of_counts: f64 = counts.iter().map(|b| b.fragments as f64 * b.transmittance_mse.unwrap_or(0.0)).sum::<f64>() / n;
-        let of_alphas: f64 = alphas.iter().map(|b| b.fragments as f64 * b.transmittance_mse.unwrap()).sum::<f64>() / n;
-        let of_image: f64 = counts.iter().map(|b| b.pixels as f64 * b.image_mse.unwrap()).sum::<f64>() / list.pixels() as f64;
+        let of_counts: f64 = counts
+            .iter()
+            .map(|b| b.fragments as f64 * b.transmittance_mse.unwrap_or(0.0))
+            .sum::<f64>()
+            / n;
+        let of_alphas: f64 = alphas
+            .iter()
+            .map(|b| b.fragments as f64 * b.transmittance_mse.unwrap())
+            .sum::<f64>()
+            / n;
+        let of_image: f64 = counts
+            .iter()
+            .map(|b| b.pixels as f64 * b.image_mse.unwrap())
+            .sum::<f64>()
+            / list.pixels() as f64;
         for (found, whole) in [(of_counts, t), (of_alphas, t), (of_image, i)] {
-            assert!(*whole > 1e-6 && (found / whole - 1.0).abs() <= 1e-12, "{found} for {whole}");
+            assert!(
+                *whole > 1e-6 && (found / whole - 1.0).abs() <= 1e-12,
+                "{found} for {whole}"
+            );
         }
         // Discs of alpha 0.4, 0.7 and 0.9, up to three in a pixel.
-        assert_eq!(alphas.iter().map(|b| b.least_alpha).collect::<Vec<_>>(), [0.4, 0.7, 0.9]);
-        assert_eq!(counts.iter().map(|b| b.most_fragments_per_pixel).collect::<Vec<_>>(), [0, 1, 2, 3]);
+        assert_eq!(
+            alphas.iter().map(|b| b.least_alpha).collect::<Vec<_>>(),
+            [0.4, 0.7, 0.9]
+        );
+        assert_eq!(
+            counts.iter().map(|b| b.most_fragments_per_pixel).collect::<Vec<_>>(),
+            [0, 1, 2, 3]
+        );
         // Weights that are no transmittances have errors of the image alone.
-        let alike = Truth::new(&list, [1.0; 3]).judge(&Alike, Context::default()).unwrap().result;
+        let alike = Truth::new(&list, [1.0; 3])
+            .judge(&Alike, Context::default())
+            .unwrap()
+            .result;
         assert!(
-            alike.by_alpha.is_none() && alike.by_fragments_per_pixel.unwrap().iter().all(|b| b.transmittance_mse.is_none() && b.image_mse.is_some())
+            alike.by_alpha.is_none()
+                && alike
+                    .by_fragments_per_pixel
+                    .unwrap()
+                    .iter()
+                    .all(|b| b.transmittance_mse.is_none() && b.image_mse.is_some())
         );
     }
 
@@ -310,23 +389,45 @@ pub(super) mod tests {
         let neural = Neural::new(random_mlp(&[8], 3));
         let exact: Box<dyn Method> = Box::new(Shifted(0.0));
         let results = evaluate(&list, &[Box::new(neural), exact], Context::default(), [1.0; 3]).unwrap();
-        assert!(results[1].method.starts_with("neural:") && results[1].transmittance_mse.unwrap() > 1e-4, "{results:?}");
-        assert!(results.iter().all(|r| r.nonfinite == 0 && r.seconds == r.seconds_accumulate + r.seconds_weights));
+        assert!(
+            results[1].method.starts_with("neural:") && results[1].transmittance_mse.unwrap() > 1e-4,
+            "{results:?}"
+        );
+        assert!(
+            results
+                .iter()
+                .all(|r| r.nonfinite == 0 && r.seconds == r.seconds_accumulate + r.seconds_weights)
+        );
     }
 
     #[test]
     fn weights_that_are_no_transmittance_have_no_error_of_t() {
-        let judged = Truth::new(&colored_list(20, 15), [1.0; 3]).judge(&Alike, Context::default()).unwrap();
-        assert_eq!((judged.result.transmittance_mse, judged.result.transmittance_worst_error), (None, None));
+        let judged = Truth::new(&colored_list(20, 15), [1.0; 3])
+            .judge(&Alike, Context::default())
+            .unwrap();
+        assert_eq!(
+            (judged.result.transmittance_mse, judged.result.transmittance_worst_error),
+            (None, None)
+        );
         assert!(judged.result.image_mse.unwrap() > 1e-5);
     }
 
     #[test]
     fn lists_without_colors_or_size_have_errors_of_t_alone() {
         let full = colored_list(4, 5);
-        let bare = FragmentList::new(full.offsets().to_vec(), full.view_z().to_vec(), full.alpha().to_vec(), None).unwrap();
-        let unsized_list =
-            FragmentList::new(full.offsets().to_vec(), full.view_z().to_vec(), full.alpha().to_vec(), full.color().map(<[[f32; 3]]>::to_vec));
+        let bare = FragmentList::new(
+            full.offsets().to_vec(),
+            full.view_z().to_vec(),
+            full.alpha().to_vec(),
+            None,
+        )
+        .unwrap();
+        let unsized_list = FragmentList::new(
+            full.offsets().to_vec(),
+            full.view_z().to_vec(),
+            full.alpha().to_vec(),
+            full.color().map(<[[f32; 3]]>::to_vec),
+        );
         for list in [bare.clone(), bare.with_size(4, 5).unwrap(), unsized_list.unwrap()] {
             let truth = Truth::new(&list, [1.0; 3]);
             assert!(truth.image().is_err());
@@ -334,15 +435,26 @@ pub(super) mod tests {
             assert!(judged.picture.is_none() && judged.result.image_mse.is_none() && judged.result.flip_mean.is_none());
             assert!((judged.result.transmittance_mse.unwrap() - 0.01).abs() < 1e-15);
         }
-        let none = FragmentList::new(vec![0; 3], vec![], vec![], None).unwrap().with_size(2, 1).unwrap();
-        let result = Truth::new(&none, [1.0; 3]).judge(&Shifted(0.1), Context::default()).unwrap().result;
-        assert_eq!((result.transmittance_mse, result.image_mse, result.flip_mean), (None, Some(0.0), Some(0.0)));
+        let none = FragmentList::new(vec![0; 3], vec![], vec![], None)
+            .unwrap()
+            .with_size(2, 1)
+            .unwrap();
+        let result = Truth::new(&none, [1.0; 3])
+            .judge(&Shifted(0.1), Context::default())
+            .unwrap()
+            .result;
+        assert_eq!(
+            (result.transmittance_mse, result.image_mse, result.flip_mean),
+            (None, Some(0.0), Some(0.0))
+        );
     }
 
     #[test]
     fn a_method_that_cannot_be_applied_is_named() {
         let neural: Box<dyn Method> = Box::new(Neural::new(random_mlp(&[8], 3)));
-        let error = evaluate(&colored_list(4, 4), &[neural], Context::default(), [1.0; 3]).unwrap_err().to_string();
+        let error = evaluate(&colored_list(4, 4), &[neural], Context::default(), [1.0; 3])
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("neural:") && error.contains("--near"), "{error}");
     }
 
@@ -370,12 +482,30 @@ pub(super) mod tests {
                 transmittance_mse: Some(0.25),
                 image_mse: Some(f64::NAN),
             }]),
-            by_alpha: Some(vec![AlphaBin { least_alpha: 0.1, most_alpha: 0.2, fragments: 11, transmittance_mse: Some(0.25) }]),
+            by_alpha: Some(vec![AlphaBin {
+                least_alpha: 0.1,
+                most_alpha: 0.2,
+                fragments: 11,
+                transmittance_mse: Some(0.25),
+            }]),
         };
         let text = serde_json::to_string_pretty(&result).unwrap();
         insta::assert_snapshot!(text);
         let back: MethodResult = serde_json::from_str(&text).unwrap();
-        let by_fragments_per_pixel = result.by_fragments_per_pixel.clone().map(|bins| vec![CountBin { image_mse: None, ..bins[0].clone() }]);
-        assert_eq!(back, MethodResult { transmittance_worst_error: None, image_psnr_db: None, by_fragments_per_pixel, ..result });
+        let by_fragments_per_pixel = result.by_fragments_per_pixel.clone().map(|bins| {
+            vec![CountBin {
+                image_mse: None,
+                ..bins[0].clone()
+            }]
+        });
+        assert_eq!(
+            back,
+            MethodResult {
+                transmittance_worst_error: None,
+                image_psnr_db: None,
+                by_fragments_per_pixel,
+                ..result
+            }
+        );
     }
 }

@@ -21,13 +21,17 @@ use crate::oit::MethodError;
 #[derive(Debug, thiserror::Error)]
 pub enum EvaluateError {
     /// The list does not say which pixel lies where.
-    #[error("there is no image: the fragment list has {pixels} pixels and neither width nor height; add both to the file")]
+    #[error(
+        "there is no image: the fragment list has {pixels} pixels and neither width nor height; add both to the file"
+    )]
     NoSize {
         /// Number of pixels.
         pixels: usize,
     },
     /// The list has fragments and no colours.
-    #[error("there is no image: the {fragments} fragments of the list have no color; add a float32 array 'color' of shape [F, 3] to the file")]
+    #[error(
+        "there is no image: the {fragments} fragments of the list have no color; add a float32 array 'color' of shape [F, 3] to the file"
+    )]
     NoColor {
         /// Number of fragments.
         fragments: usize,

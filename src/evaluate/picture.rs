@@ -21,14 +21,24 @@ fn display(linear: [f64; 3]) -> [u8; 3] {
     }
     linear.map(|v| {
         let v = v.clamp(0.0, 1.0);
-        let encoded = if v <= 0.0031308 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        let encoded = if v <= 0.0031308 {
+            12.92 * v
+        } else {
+            1.055 * v.powf(1.0 / 2.4) - 0.055
+        };
         (255.0 * encoded).round() as u8
     })
 }
 
 /// Display colours of 0, 0.2, … 1 on the error scale: from near black over violet and red to pale yellow, ever lighter.
-const HEAT: [[f64; 3]; 6] =
-    [[6.0, 5.0, 18.0], [58.0, 20.0, 98.0], [134.0, 38.0, 118.0], [210.0, 66.0, 92.0], [249.0, 144.0, 86.0], [254.0, 244.0, 186.0]];
+const HEAT: [[f64; 3]; 6] = [
+    [6.0, 5.0, 18.0],
+    [58.0, 20.0, 98.0],
+    [134.0, 38.0, 118.0],
+    [210.0, 66.0, 92.0],
+    [249.0, 144.0, 86.0],
+    [254.0, 244.0, 186.0],
+];
 
 /// Display colour of an error from 0 to 1; greater ones look like 1, one that is not finite is magenta.
 fn heat(error: f64) -> [u8; 3] {
@@ -42,7 +52,9 @@ fn heat(error: f64) -> [u8; 3] {
 }
 
 fn picture(width: u32, height: u32, color: impl Fn(usize) -> [u8; 3]) -> RgbImage {
-    RgbImage::from_fn(width, height, |x, y| Rgb(color(y as usize * width as usize + x as usize)))
+    RgbImage::from_fn(width, height, |x, y| {
+        Rgb(color(y as usize * width as usize + x as usize))
+    })
 }
 
 fn image_picture(image: &Image) -> RgbImage {
@@ -52,7 +64,9 @@ fn image_picture(image: &Image) -> RgbImage {
 fn write_png(path: &Path, replace: Replace, picture: &RgbImage) -> Result<(), EvaluateError> {
     write_atomically(path, replace, |w| {
         let (width, height) = picture.dimensions();
-        PngEncoder::new(w).write_image(picture.as_raw(), width, height, ExtendedColorType::Rgb8).map_err(std::io::Error::other)
+        PngEncoder::new(w)
+            .write_image(picture.as_raw(), width, height, ExtendedColorType::Rgb8)
+            .map_err(std::io::Error::other)
     })
     .map_err(|e: FileError| e.into())
 }
@@ -70,16 +84,33 @@ pub fn write_image(path: &Path, replace: Replace, image: &Image) -> Result<(), E
 /// # Errors
 /// [`EvaluateError::File`].
 pub fn write_flip(path: &Path, replace: Replace, map: &FlipMap) -> Result<(), EvaluateError> {
-    write_png(path, replace, &picture(map.width(), map.height(), |i| heat(map.values()[i].into())))
+    write_png(
+        path,
+        replace,
+        &picture(map.width(), map.height(), |i| heat(map.values()[i].into())),
+    )
 }
 
 /// A method's name as part of a file name: what is neither an ASCII letter, a digit, a dot nor a hyphen becomes a hyphen.
 ///
 /// Two names may give one part; the caller who evaluates such methods together must tell them apart.
 pub fn file_stem(method: &str) -> String {
-    let stem: String = method.chars().map(|c| if c.is_ascii_alphanumeric() || c == '.' || c == '-' { c } else { '-' }).collect();
+    let stem: String = method
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() || c == '.' || c == '-' {
+                c
+            } else {
+                '-'
+            }
+        })
+        .collect();
     let stem = stem.trim_matches(['.', '-']);
-    if stem.is_empty() { "method".to_owned() } else { stem.to_owned() }
+    if stem.is_empty() {
+        "method".to_owned()
+    } else {
+        stem.to_owned()
+    }
 }
 
 /// Writes a method's image to `STEM.png` and its FLIP map to `STEM.flip.png` in a folder; nothing where the list makes no image.
@@ -87,7 +118,9 @@ pub fn file_stem(method: &str) -> String {
 /// # Errors
 /// [`EvaluateError::File`].
 pub fn write_method(folder: &Path, stem: &str, replace: Replace, judged: &Judged) -> Result<(), EvaluateError> {
-    let Some((image, map)) = &judged.picture else { return Ok(()) };
+    let Some((image, map)) = &judged.picture else {
+        return Ok(());
+    };
     write_image(&folder.join(format!("{stem}.png")), replace, image)?;
     write_flip(&folder.join(format!("{stem}.flip.png")), replace, map)
 }
@@ -131,7 +164,10 @@ impl Shown {
     fn of(image: &Image) -> Self {
         let (width, height) = fit(image.width(), image.height(), PANEL);
         let linear = resample(image.pixels(), image.width(), (width, height));
-        Self { full: image_picture(image), panel: picture(width, height, |i| display(linear[i])) }
+        Self {
+            full: image_picture(image),
+            panel: picture(width, height, |i| display(linear[i])),
+        }
     }
 }
 
@@ -148,8 +184,16 @@ impl Sheet {
     /// A sheet of a scene: a fragment list, its name and its exact image.
     pub fn new(scene: &str, list: &FragmentList, exact: &Image) -> Self {
         let (width, height, fragments) = (exact.width(), exact.height(), list.len());
-        let subtitle = format!("{width} x {height} pixels, {fragments} fragments, up to {} in a pixel", list.depth_complexity());
-        Self { scene: scene.to_owned(), subtitle, truth: Shown::of(exact), methods: vec![] }
+        let subtitle = format!(
+            "{width} x {height} pixels, {fragments} fragments, up to {} in a pixel",
+            list.depth_complexity()
+        );
+        Self {
+            scene: scene.to_owned(),
+            subtitle,
+            truth: Shown::of(exact),
+            methods: vec![],
+        }
     }
 
     /// Adds a method; one without a picture is left out.
@@ -157,12 +201,18 @@ impl Sheet {
     /// # Errors
     /// [`EvaluateError::SizesDiffer`] where its image is not of the scene's size.
     pub fn add(&mut self, judged: &Judged) -> Result<(), EvaluateError> {
-        let Some((image, map)) = &judged.picture else { return Ok(()) };
+        let Some((image, map)) = &judged.picture else {
+            return Ok(());
+        };
         let reference = self.truth.full.dimensions();
         if reference != (image.width(), image.height()) {
-            return Err(EvaluateError::SizesDiffer { reference, test: (image.width(), image.height()) });
+            return Err(EvaluateError::SizesDiffer {
+                reference,
+                test: (image.width(), image.height()),
+            });
         }
-        self.methods.push((judged.result.clone(), Shown::of(image), map.clone()));
+        self.methods
+            .push((judged.result.clone(), Shown::of(image), map.clone()));
         Ok(())
     }
 
@@ -192,26 +242,61 @@ impl Sheet {
         let head = MARGIN + 3 * text::HEIGHT + GAP + 2 * LINE;
         let columns = columns(methods.len() as u32 + 1, cell);
         let rows = (methods.len() as u32 + 1).div_ceil(columns);
-        let place = |i: usize| (MARGIN + i as u32 % columns * (cell.0 + MARGIN), head + MARGIN + i as u32 / columns * (cell.1 + MARGIN));
+        let place = |i: usize| {
+            (
+                MARGIN + i as u32 % columns * (cell.0 + MARGIN),
+                head + MARGIN + i as u32 / columns * (cell.1 + MARGIN),
+            )
+        };
 
         let lines = [
             format!("{}; best image MSE first", self.subtitle),
-            format!("crop: the marked {} x {} pixels, where methods differ most", crop.width, crop.height),
+            format!(
+                "crop: the marked {} x {} pixels, where methods differ most",
+                crop.width, crop.height
+            ),
         ];
-        let needed = lines.iter().map(|l| text::width(l, 2)).chain([text::width(&self.scene, 3)]).max().unwrap_or(0);
+        let needed = lines
+            .iter()
+            .map(|l| text::width(l, 2))
+            .chain([text::width(&self.scene, 3)])
+            .max()
+            .unwrap_or(0);
         let width = (MARGIN + columns * (cell.0 + MARGIN)).max(needed.min(4096) + 2 * MARGIN);
         let mut sheet = RgbImage::from_pixel(width, head + MARGIN + rows * (cell.1 + MARGIN), PAGE);
         text::draw(&mut sheet, MARGIN, MARGIN, 3, INK, &self.scene);
         for (i, line) in lines.iter().enumerate() {
-            text::draw(&mut sheet, MARGIN, MARGIN + 3 * text::HEIGHT + GAP + 4 + i as u32 * LINE, 2, FAINT, line);
+            text::draw(
+                &mut sheet,
+                MARGIN,
+                MARGIN + 3 * text::HEIGHT + GAP + 4 + i as u32 * LINE,
+                2,
+                FAINT,
+                line,
+            );
         }
 
-        let mut draw = Cell { sheet: &mut sheet, at: place(0), panel, half, name_lines };
-        draw.label(&["ground truth".to_owned()], [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)]);
+        let mut draw = Cell {
+            sheet: &mut sheet,
+            at: place(0),
+            panel,
+            half,
+            name_lines,
+        };
+        draw.label(
+            &["ground truth".to_owned()],
+            [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)],
+        );
         draw.image(&self.truth, crop);
         draw.scale(top);
         for (i, ((result, shown, map), name)) in methods.into_iter().zip(&names).enumerate() {
-            let mut draw = Cell { sheet: &mut sheet, at: place(i + 1), panel, half, name_lines };
+            let mut draw = Cell {
+                sheet: &mut sheet,
+                at: place(i + 1),
+                panel,
+                half,
+                name_lines,
+            };
             draw.label(name, numbers(result));
             draw.image(shown, crop);
             draw.map(map, top);
@@ -230,7 +315,10 @@ impl Sheet {
         for y in 0..height as usize {
             let mut row = 0.0;
             for x in 0..width as usize {
-                let here = self.methods.iter().map(|(.., map)| f64::from(map.values()[y * width as usize + x]));
+                let here = self
+                    .methods
+                    .iter()
+                    .map(|(.., map)| f64::from(map.values()[y * width as usize + x]));
                 row += here.map(|v| if v.is_finite() { v } else { 1.0 }).sum::<f64>();
                 sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + row;
             }
@@ -247,7 +335,12 @@ impl Sheet {
                 (best, greatest) = ((x, y), here);
             }
         }
-        Crop { x: best.0, y: best.1, width: w, height: h }
+        Crop {
+            x: best.0,
+            y: best.1,
+            width: w,
+            height: h,
+        }
     }
 
     /// The FLIP value that is drawn brightest: what 99 % of a middling method's pixels stay below, rounded up to 1, 2 or 5 times a power of ten.
@@ -257,7 +350,9 @@ impl Sheet {
             .iter()
             .map(|(.., map)| {
                 let mut values: Vec<f32> = map.values().iter().copied().filter(|v| v.is_finite()).collect();
-                let Some(last) = values.len().checked_sub(1) else { return 1.0 };
+                let Some(last) = values.len().checked_sub(1) else {
+                    return 1.0;
+                };
                 *values.select_nth_unstable_by(last * 99 / 100, f32::total_cmp).1
             })
             .collect();
@@ -348,7 +443,12 @@ fn covers(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
     let one = |i: u32| {
         let (start, end) = (f64::from(i) * step, (f64::from(i + 1) * step).min(f64::from(from)));
         let pixels = (start as u32).min(from - 1)..(end.ceil() as u32).min(from);
-        let shares = pixels.map(|p| (p as usize, (end.min(f64::from(p + 1)) - start.max(f64::from(p))) / (end - start)));
+        let shares = pixels.map(|p| {
+            (
+                p as usize,
+                (end.min(f64::from(p + 1)) - start.max(f64::from(p))) / (end - start),
+            )
+        });
         shares.filter(|s| s.1 > 0.0).collect()
     };
     (0..to).map(one).collect()
@@ -389,8 +489,14 @@ impl Cell<'_> {
         // The crop's place: a light line around a dark one, to be seen on anything.
         let full = shown.full.dimensions();
         let on_panel = |v: u32, panel: u32, full: u32| (u64::from(v) * u64::from(panel) / u64::from(full)) as u32;
-        let (left, right) = (on_panel(crop.x, width, full.0), on_panel(crop.x + crop.width, width, full.0));
-        let (top, bottom) = (on_panel(crop.y, height, full.1), on_panel(crop.y + crop.height, height, full.1));
+        let (left, right) = (
+            on_panel(crop.x, width, full.0),
+            on_panel(crop.x + crop.width, width, full.0),
+        );
+        let (top, bottom) = (
+            on_panel(crop.y, height, full.1),
+            on_panel(crop.y + crop.height, height, full.1),
+        );
         let size = (right.saturating_sub(left), bottom.saturating_sub(top));
         self.outline((x + left, y + top), size, Rgb([20; 3]));
         if size.0 > 2 && size.1 > 2 {
@@ -399,8 +505,12 @@ impl Cell<'_> {
 
         let (half, from) = (self.half, &shown.full);
         let place = |i: u32, size: u32, crop: u32| (u64::from(i) * u64::from(crop) / u64::from(size)) as u32;
-        let enlarged =
-            RgbImage::from_fn(half.0, half.1, |i, j| *from.get_pixel(crop.x + place(i, half.0, crop.width), crop.y + place(j, half.1, crop.height)));
+        let enlarged = RgbImage::from_fn(half.0, half.1, |i, j| {
+            *from.get_pixel(
+                crop.x + place(i, half.0, crop.width),
+                crop.y + place(j, half.1, crop.height),
+            )
+        });
         self.lower(1, &enlarged, "crop");
     }
 
@@ -415,7 +525,9 @@ impl Cell<'_> {
     fn scale(&mut self, top: f64) {
         let (x, y) = (self.at.0, self.top_of_image() + self.panel.1 + GAP);
         let width = (PANEL - GAP) / 2;
-        let bar = picture(width, 20.min(self.half.1), |i| heat((i as u32 % width) as f64 / f64::from(width - 1)));
+        let bar = picture(width, 20.min(self.half.1), |i| {
+            heat((i as u32 % width) as f64 / f64::from(width - 1))
+        });
         self.paste(x, y, &bar);
         let below = y + bar.height() + 6;
         let end = if top < 1.0 { format!("{top}+") } else { format!("{top}") };
@@ -471,10 +583,19 @@ mod tests {
     /// Greater errors are lighter, in even the smallest steps that 8 bits show.
     #[test]
     fn heat_grows_lighter() {
-        let luma = |e: f64| heat(e).iter().zip([0.2126, 0.7152, 0.0722]).map(|(&v, w)| f64::from(v) * w).sum::<f64>();
+        let luma = |e: f64| {
+            heat(e)
+                .iter()
+                .zip([0.2126, 0.7152, 0.0722])
+                .map(|(&v, w)| f64::from(v) * w)
+                .sum::<f64>()
+        };
         assert!((0..200).all(|i| luma(f64::from(i + 1) / 200.0) >= luma(f64::from(i) / 200.0) - 0.5));
         assert!(luma(1.0) > luma(0.0) + 200.0);
-        assert_eq!((heat(7.0), heat(-1.0), heat(f64::NAN)), (heat(1.0), heat(0.0), NOT_FINITE));
+        assert_eq!(
+            (heat(7.0), heat(-1.0), heat(f64::NAN)),
+            (heat(1.0), heat(0.0), NOT_FINITE)
+        );
     }
 
     /// The mean survives at any size; control: it is the mean of the covered area and no single pixel's value.
@@ -495,14 +616,19 @@ mod tests {
     fn names_become_safe_file_names() {
         assert_eq!(file_stem("moment-power-4:nlqm+own"), "moment-power-4-nlqm-own");
         assert_eq!(file_stem("neural:../models/m.json"), "neural-..-models-m.json");
-        assert_eq!((file_stem("../.."), file_stem("")), ("method".to_owned(), "method".to_owned()));
+        assert_eq!(
+            (file_stem("../.."), file_stem("")),
+            ("method".to_owned(), "method".to_owned())
+        );
     }
 
     fn sheet(list: &FragmentList, offsets: &[f64]) -> Sheet {
         let truth = Truth::new(list, [1.0; 3]);
         let mut sheet = Sheet::new("discs", list, truth.image().unwrap());
         for &offset in offsets {
-            sheet.add(&truth.judge(&Shifted(offset), Context::default()).unwrap()).unwrap();
+            sheet
+                .add(&truth.judge(&Shifted(offset), Context::default()).unwrap())
+                .unwrap();
         }
         sheet
     }
@@ -517,12 +643,20 @@ mod tests {
         write_method(folder.path(), "off", Replace::No, &judged).unwrap();
         let read = |name: &str| {
             let bytes = std::fs::read(folder.path().join(name)).unwrap();
-            ::image::load_from_memory_with_format(&bytes, ::image::ImageFormat::Png).unwrap().into_rgb8()
+            ::image::load_from_memory_with_format(&bytes, ::image::ImageFormat::Png)
+                .unwrap()
+                .into_rgb8()
         };
         let (image, map) = judged.picture.as_ref().unwrap();
         assert_eq!(read("off.png"), image_picture(image));
-        assert_eq!(read("off.flip.png").get_pixel(32, 24).0, heat(map.values()[24 * 64 + 32].into()));
-        assert!(matches!(write_method(folder.path(), "off", Replace::No, &judged), Err(EvaluateError::File(FileError::Exists { .. }))));
+        assert_eq!(
+            read("off.flip.png").get_pixel(32, 24).0,
+            heat(map.values()[24 * 64 + 32].into())
+        );
+        assert!(matches!(
+            write_method(folder.path(), "off", Replace::No, &judged),
+            Err(EvaluateError::File(FileError::Exists { .. }))
+        ));
 
         let sheet = sheet(&list, &[0.3, 0.0]);
         sheet.write(&folder.path().join("sheet.png"), Replace::No).unwrap();
@@ -543,13 +677,21 @@ mod tests {
     #[test]
     fn any_size_and_any_name_make_a_sheet() {
         for (width, height) in [(1, 1), (1, 200), (700, 2), (9, 7)] {
-            let picture = sheet(&colored_list(width, height), &[0.2, f64::NAN, 0.1]).render().unwrap();
-            assert!(picture.width() > PANEL && picture.height() > MARGIN, "{width} x {height}");
+            let picture = sheet(&colored_list(width, height), &[0.2, f64::NAN, 0.1])
+                .render()
+                .unwrap();
+            assert!(
+                picture.width() > PANEL && picture.height() > MARGIN,
+                "{width} x {height}"
+            );
         }
         let alarmed = sheet(&colored_list(32, 32), &[f64::NAN]).render().unwrap();
         assert!(alarmed.pixels().any(|p| *p == ALARM) && alarmed.pixels().any(|p| p.0 == NOT_FINITE));
         let lines = shortened(&"a-very-long-name".repeat(20));
-        assert!(lines.len() == 2 && lines.iter().all(|l| text::width(l, 2) <= PANEL) && lines[1].ends_with(".."), "{lines:?}");
+        assert!(
+            lines.len() == 2 && lines.iter().all(|l| text::width(l, 2) <= PANEL) && lines[1].ends_with(".."),
+            "{lines:?}"
+        );
     }
 
     #[test]
@@ -558,9 +700,14 @@ mod tests {
         let mut sheet = sheet(&list, &[]);
         assert!(matches!(sheet.render(), Err(EvaluateError::EmptySheet)));
         let other = colored_list(6, 8);
-        let judged = Truth::new(&other, [1.0; 3]).judge(&Shifted(0.1), Context::default()).unwrap();
+        let judged = Truth::new(&other, [1.0; 3])
+            .judge(&Shifted(0.1), Context::default())
+            .unwrap();
         assert!(sheet.add(&judged).unwrap_err().to_string().contains("6 x 8"));
-        let missing = Truth::new(&other, [1.0; 3]).judge(&Shifted(0.1), Context::default()).map(|j| Judged { picture: None, ..j }).unwrap();
+        let missing = Truth::new(&other, [1.0; 3])
+            .judge(&Shifted(0.1), Context::default())
+            .map(|j| Judged { picture: None, ..j })
+            .unwrap();
         sheet.add(&missing).unwrap();
         assert!(sheet.methods.is_empty());
     }

@@ -11,7 +11,10 @@ const SPACE: u32 = 4;
 
 /// Rows of a letter, the lowest bit leftmost; a question mark for what the font lacks.
 fn glyph(letter: char) -> [u8; 8] {
-    BASIC_LEGACY[usize::try_from(u32::from(letter)).ok().filter(|&i| (32..127).contains(&i)).unwrap_or('?' as usize)]
+    BASIC_LEGACY[usize::try_from(u32::from(letter))
+        .ok()
+        .filter(|&i| (32..127).contains(&i))
+        .unwrap_or('?' as usize)]
 }
 
 /// First inked column of a letter and the number of columns up to the last.
@@ -38,7 +41,14 @@ pub fn draw(picture: &mut RgbImage, x: u32, y: u32, scale: u32, color: Rgb<u8>, 
         for (row, bits) in rows.iter().enumerate() {
             for column in 0..columns {
                 if bits >> (first + column) & 1 == 1 {
-                    fill(picture, left + column * scale, y + row as u32 * scale, scale, scale, color);
+                    fill(
+                        picture,
+                        left + column * scale,
+                        y + row as u32 * scale,
+                        scale,
+                        scale,
+                        color,
+                    );
                 }
             }
         }
@@ -63,7 +73,9 @@ pub fn wrap(name: &str, scale: u32, widest: u32) -> Vec<String> {
         line.push(letter);
         while width(&line, scale) > widest && line.chars().count() > 1 {
             let last = line.len() - letter.len_utf8();
-            let at = line[..last].rfind(['-', ':', '+', '/', ' ', '_']).map_or(last, |i| i + 1);
+            let at = line[..last]
+                .rfind(['-', ':', '+', '/', ' ', '_'])
+                .map_or(last, |i| i + 1);
             let rest = line.split_off(at);
             lines.push(std::mem::replace(&mut line, rest));
         }
@@ -85,8 +97,15 @@ mod tests {
         let text = "Ag-7:+";
         let mut picture = RgbImage::from_pixel(200, 20, white);
         draw(&mut picture, 3, 2, 2, black, text);
-        let inked: Vec<u32> = picture.enumerate_pixels().filter(|&(.., &p)| p == black).map(|(x, ..)| x).collect();
-        assert_eq!((inked.iter().min(), inked.iter().max()), (Some(&3), Some(&(3 + width(text, 2) - 1))));
+        let inked: Vec<u32> = picture
+            .enumerate_pixels()
+            .filter(|&(.., &p)| p == black)
+            .map(|(x, ..)| x)
+            .collect();
+        assert_eq!(
+            (inked.iter().min(), inked.iter().max()),
+            (Some(&3), Some(&(3 + width(text, 2) - 1)))
+        );
         assert_eq!(glyph('é'), glyph('?'));
         // Far outside: nothing, and no panic.
         draw(&mut picture, 1000, 1000, 3, black, text);

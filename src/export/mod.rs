@@ -67,7 +67,9 @@ pub enum ExportError {
         reason: String,
     },
     /// The language has no f16 form.
-    #[error("{0} is not offered in f16: no compiler that could execute it here reads it; wgsl, hlsl, metal and spirv are")]
+    #[error(
+        "{0} is not offered in f16: no compiler that could execute it here reads it; wgsl, hlsl, metal and spirv are"
+    )]
     NoHalf(&'static str),
     /// naga does not translate the source; a fault of this program.
     #[error("naga makes no {language} of the WGSL: {reason}")]
@@ -101,7 +103,15 @@ impl Format {
     ];
 
     /// What is exported where nothing else is asked for: the faster form of every language, in f32.
-    pub const DEFAULT: [Self; 7] = [Self::Wgsl, Self::Glsl, Self::Hlsl, Self::Metal, Self::Spirv, Self::Json, Self::Onnx];
+    pub const DEFAULT: [Self; 7] = [
+        Self::Wgsl,
+        Self::Glsl,
+        Self::Hlsl,
+        Self::Metal,
+        Self::Spirv,
+        Self::Json,
+        Self::Onnx,
+    ];
 
     /// Its name in reports.
     pub fn name(self) -> &'static str {
@@ -162,7 +172,11 @@ impl Format {
             Self::HlslPlainF16 => (Language::Hlsl, Form::Plain, Precision::F16),
             Self::Json | Self::Onnx => return None,
         };
-        Some(Kind { language, form, precision })
+        Some(Kind {
+            language,
+            form,
+            precision,
+        })
     }
 
     /// The same in another precision; none where there is no such form.
@@ -209,7 +223,10 @@ pub fn encode(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
 pub fn write(mlp: &Mlp, folder: &Path, formats: &[Format], replace: Replace) -> Result<Vec<PathBuf>, ExportError> {
     let paths: Vec<_> = formats.iter().map(|f| f.path(folder, mlp)).collect();
     paths.iter().try_for_each(|path| may_write(path, replace))?;
-    let encoded = formats.iter().map(|&format| encode(mlp, format)).collect::<Result<Vec<_>, _>>()?;
+    let encoded = formats
+        .iter()
+        .map(|&format| encode(mlp, format))
+        .collect::<Result<Vec<_>, _>>()?;
     create_folder(folder)?;
     for (bytes, path) in encoded.iter().zip(&paths) {
         write_atomically(path, replace, |w| w.write_all(bytes))?;

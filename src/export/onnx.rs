@@ -2,7 +2,7 @@
 //!
 //! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that such a graph needs, declared by hand.
 
-use crate::features::{Answer, MOST_LOG_ABSORBANCE};
+use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
 use prost::Message;
 
@@ -179,13 +179,27 @@ pub enum DimensionValue {
 const FLOAT: i32 = 1;
 
 fn matrix(name: &str, columns: i64) -> ValueInfoProto {
-    let dim = [DimensionValue::Name("N".to_owned()), DimensionValue::Size(columns)].map(|value| Dimension { value: Some(value) });
-    let tensor_type = TensorType { elem_type: FLOAT, shape: Some(TensorShapeProto { dim: dim.to_vec() }) };
-    ValueInfoProto { name: name.to_owned(), r#type: Some(TypeProto { tensor_type: Some(tensor_type) }) }
+    let dim = [DimensionValue::Name("N".to_owned()), DimensionValue::Size(columns)]
+        .map(|value| Dimension { value: Some(value) });
+    let tensor_type = TensorType {
+        elem_type: FLOAT,
+        shape: Some(TensorShapeProto { dim: dim.to_vec() }),
+    };
+    ValueInfoProto {
+        name: name.to_owned(),
+        r#type: Some(TypeProto {
+            tensor_type: Some(tensor_type),
+        }),
+    }
 }
 
 fn tensor(name: String, dims: Vec<i64>, values: &[f32]) -> TensorProto {
-    TensorProto { dims, data_type: FLOAT, name, raw_data: values.iter().flat_map(|v| v.to_le_bytes()).collect() }
+    TensorProto {
+        dims,
+        data_type: FLOAT,
+        name,
+        raw_data: values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+    }
 }
 
 /// Name of layer `index`'s weights and of its biases.
@@ -202,7 +216,13 @@ pub fn answer_tensors(width: usize, column: usize, offset: f32) -> [(&'static st
     let unit = (0..width).map(|i| if i == column { 1.0 } else { 0.0 }).collect();
     let one = |name, value| (name, vec![1], vec![value]);
     // e^80 is finite in f32.
-    [("column", vec![width as i64, 1], unit), one("offset", offset), one("most", MOST_LOG_ABSORBANCE), one("greatest", 80.0), one("one", 1.0)]
+    [
+        ("column", vec![width as i64, 1], unit),
+        one("offset", offset),
+        one("most", MAX_LOG_ABSORBANCE),
+        one("greatest", 80.0),
+        one("one", 1.0),
+    ]
 }
 
 /// The graph of a network.
@@ -213,7 +233,11 @@ pub fn model(mlp: &Mlp) -> ModelProto {
     let last = mlp.layers().len() - 1;
     for (index, dense) in mlp.layers().iter().enumerate() {
         let (weights, biases) = (weights_name(index), biases_name(index));
-        initializer.push(tensor(weights.clone(), vec![dense.inputs() as i64, dense.outputs() as i64], &dense.weights));
+        initializer.push(tensor(
+            weights.clone(),
+            vec![dense.inputs() as i64, dense.outputs() as i64],
+            &dense.weights,
+        ));
         initializer.push(tensor(biases.clone(), vec![dense.outputs() as i64], &dense.biases));
         let sum = format!("sum{}", index + 1);
         node.push(NodeProto {
@@ -288,10 +312,18 @@ pub fn model(mlp: &Mlp) -> ModelProto {
             input: vec![matrix(INPUT, set.width() as i64)],
             output: vec![matrix(OUTPUT, 1)],
         }),
-        opset_import: vec![OperatorSetIdProto { domain: String::new(), version: OPSET }],
+        opset_import: vec![OperatorSetIdProto {
+            domain: String::new(),
+            version: OPSET,
+        }],
         metadata_props: metadata
             .into_iter()
-            .filter_map(|(key, value)| value.map(|value| StringStringEntryProto { key: key.to_owned(), value }))
+            .filter_map(|(key, value)| {
+                value.map(|value| StringStringEntryProto {
+                    key: key.to_owned(),
+                    value,
+                })
+            })
             .collect(),
     }
 }
@@ -323,7 +355,12 @@ mod tests {
         assert_eq!(operators, ["Gemm", "Relu", "Gemm", "Relu", "Gemm", "Sigmoid"]);
         assert_eq!(graph.initializer.len(), 6);
         assert_eq!(graph.initializer[0].dims, [7, 32]);
-        assert!(model.metadata_props.iter().any(|p| p.key == "nmt.features" && p.value == "d,n,b0,b1,b2,b3,b4"));
+        assert!(
+            model
+                .metadata_props
+                .iter()
+                .any(|p| p.key == "nmt.features" && p.value == "d,n,b0,b1,b2,b3,b4")
+        );
         assert_eq!(model.opset_import[0].version, OPSET);
     }
 }

@@ -3,8 +3,9 @@
 use super::shader::{Language, Numbers, Precision, SHARE};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
-    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
-    LEAST_HALF_RANGE, MEAN_DEVIATION, MOST_ABSORBANCE, NOISE_GROWTH, SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET,
+    INNER_SPREAD_OF_SPREAD, MAX_ABSORBANCE, MEAN_DEVIATION, MIN_HALF_RANGE, NOISE_GROWTH, SPREAD_DEVIATION, THIN,
+    USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
 };
 use std::fmt::Write;
 
@@ -32,7 +33,11 @@ impl Writer {
     }
 
     pub(super) fn new(language: Language) -> Self {
-        Self { language, text: String::new(), depth: 0 }
+        Self {
+            language,
+            text: String::new(),
+            depth: 0,
+        }
     }
 
     pub(super) fn line(&mut self, line: &str) {
@@ -57,13 +62,21 @@ impl Writer {
 
     /// A value that does not change.
     pub(super) fn bind(&mut self, name: &str, value: &str) {
-        let head = if self.language == Language::Wgsl { "let" } else { "float" };
+        let head = if self.language == Language::Wgsl {
+            "let"
+        } else {
+            "float"
+        };
         self.statement(&format!("{head} {name} = {value};"));
     }
 
     /// A value that does.
     pub(super) fn variable(&mut self, name: &str, value: &str) {
-        let head = if self.language == Language::Wgsl { "var" } else { "float" };
+        let head = if self.language == Language::Wgsl {
+            "var"
+        } else {
+            "float"
+        };
         self.statement(&format!("{head} {name} = {value};"));
     }
 
@@ -97,7 +110,11 @@ impl Writer {
             }
         };
         let list = list.join(", ");
-        self.line(&if self.language == Language::Wgsl { format!("fn {name}({list}) -> {kind} {{") } else { format!("{kind} {name}({list}) {{") });
+        self.line(&if self.language == Language::Wgsl {
+            format!("fn {name}({list}) -> {kind} {{")
+        } else {
+            format!("{kind} {name}({list}) {{")
+        });
     }
 
     /// Ends a function with a number.
@@ -111,7 +128,10 @@ impl Writer {
         match self.language {
             Language::Wgsl => self.statement(&format!("return array<f32, {}>({});", items.len(), items.join(", "))),
             Language::Glsl => self.statement(&format!("return float[{}]({});", items.len(), items.join(", "))),
-            Language::Hlsl => items.iter().enumerate().for_each(|(i, item)| self.statement(&format!("result[{i}] = {item};"))),
+            Language::Hlsl => items
+                .iter()
+                .enumerate()
+                .for_each(|(i, item)| self.statement(&format!("result[{i}] = {item};"))),
         }
         self.line("}");
     }
@@ -131,7 +151,17 @@ impl Writer {
 }
 
 /// What the fragment's own data and what pass 1 left are called, in the order of parameters.
-pub(super) const LOOK: [&str; 9] = ["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"];
+pub(super) const LOOK: [&str; 9] = [
+    "v",
+    "z",
+    "absorbance",
+    "nearest",
+    "farthest",
+    "z_nearest",
+    "z_farthest",
+    "n",
+    "b0",
+];
 
 /// Parameters of the functions that look at a fragment.
 pub(super) fn look_parameters(k: usize) -> Vec<(&'static str, usize)> {
@@ -143,7 +173,13 @@ pub const ROUNDING: &str = "NMT_ROUNDING";
 
 /// WGSL of a recentred network whose sums are rounded to `unit` of b0 where they are stored, instead of as f32; other source stays as it is.
 pub fn with_rounding(wgsl: &str, unit: f32) -> String {
-    let constant = |unit| Numbers { language: Language::Wgsl, precision: Precision::F32 }.scalar_constant(ROUNDING, unit);
+    let constant = |unit| {
+        Numbers {
+            language: Language::Wgsl,
+            precision: Precision::F32,
+        }
+        .scalar_constant(ROUNDING, unit)
+    };
     wgsl.replace(&constant(f32::EPSILON), &constant(unit))
 }
 
@@ -153,7 +189,10 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     let mut w = Writer::new(language);
     w.line("// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.");
     w.function("nmt_absorbance", &[("alpha", 0)], 0);
-    w.bind("faint", "alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))))");
+    w.bind(
+        "faint",
+        "alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))))",
+    );
     let chosen = w.select("alpha < 0.03", "faint", "-log(max(1.0 - alpha, 0.000045399931))");
     w.give(&chosen);
 
@@ -161,24 +200,37 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.function("nmt_log_ratio", &[("a", 0), ("b", 0)], 0);
     w.bind("s", "(a - b) / (a + b)");
     w.bind("q", "s * s");
-    let chosen = w.select("abs(s) < 0.2", "(s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))", "log(a / b)");
+    let chosen = w.select(
+        "abs(s) < 0.2",
+        "(s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))",
+        "log(a / b)",
+    );
     w.give(&chosen);
 
     w.line("\n// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view");
     w.line("// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.");
     w.function("nmt_moment_depth", &[("v", 0), ("v0", 0), ("v1", 0)], 0);
-    w.bind("warped", "2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0");
+    w.bind(
+        "warped",
+        "2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0",
+    );
     let chosen = w.select("v1 > v0", "clamp(warped, -1.0, 1.0)", "0.0");
     w.give(&chosen);
 
-    w.line(&format!("\n// Pass 1: what a fragment at moment depth z adds to b1..b{k}; to b0 it adds its absorbance, to n it adds 1."));
+    w.line(&format!(
+        "\n// Pass 1: what a fragment at moment depth z adds to b1..b{k}; to b0 it adds its absorbance, to n it adds 1."
+    ));
     w.function("nmt_moments", &[("z", 0), ("absorbance", 0)], k);
     own_moments(&mut w, k);
     let items: Vec<String> = (1..=k).map(|i| format!("own{i}")).collect();
     w.give_array(&items);
 
     w.line("\n// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.");
-    w.text += &Numbers { language, precision: Precision::F32 }.scalar_constant(ROUNDING, f32::EPSILON);
+    w.text += &Numbers {
+        language,
+        precision: Precision::F32,
+    }
+    .scalar_constant(ROUNDING, f32::EPSILON);
 
     w.line("\n// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,");
     w.line(&format!("// their moment depths, number of fragments n, total absorbance b0 and moments b1..b{k}. The result holds the {width} features, then T where it is"));
@@ -190,14 +242,18 @@ pub fn source(language: Language, set: FeatureSet) -> String {
 
 fn own_moments(w: &mut Writer, k: usize) {
     for i in 1..=k {
-        let before = if i == 1 { "absorbance".to_owned() } else { format!("own{}", i - 1) };
+        let before = if i == 1 {
+            "absorbance".to_owned()
+        } else {
+            format!("own{}", i - 1)
+        };
         w.bind(&format!("own{i}"), &format!("{before} * z"));
     }
 }
 
 fn look(w: &mut Writer, k: usize, hand: Hand) {
     let early = hand == Hand::Early;
-    let most = w.number(MOST_ABSORBANCE);
+    let most = w.number(MAX_ABSORBANCE);
     w.bind("others", &format!("clamp(b0 - absorbance, 0.0, {most})"));
     if early {
         // One condition a line: short-circuit operators would branch too.
@@ -214,7 +270,11 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
     w.bind("ratio", "range / nearest");
     w.bind("t", "(v - nearest) / max(range, 1e-30)");
     let thin = w.number(THIN);
-    let x = w.select(&format!("ratio < {thin}"), "2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0", "along");
+    let x = w.select(
+        &format!("ratio < {thin}"),
+        "2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0",
+        "along",
+    );
     w.bind("x", &format!("clamp({x}, -1.0, 1.0)"));
 
     // Three fragments, and four.
@@ -240,7 +300,11 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
         }
         Hand::Beside => {
             w.variable("front", "-1.0");
-            let rules = [("n == 4.0", "front4", "front"), ("n == 3.0", "front3", "front"), ("v == farthest", "others", "front")];
+            let rules = [
+                ("n == 4.0", "front4", "front"),
+                ("n == 3.0", "front3", "front"),
+                ("v == farthest", "others", "front"),
+            ];
             let first = [("others > 1e-6 * b0", "front", "0.0"), ("v == nearest", "0.0", "front")];
             for (condition, yes, no) in rules.into_iter().chain(first) {
                 let chosen = w.select(condition, yes, no);
@@ -271,7 +335,7 @@ fn look(w: &mut Writer, k: usize, hand: Hand) {
 /// c, 1/h and m1..mk.
 pub(super) fn recentred_moments(w: &mut Writer, k: usize) {
     w.bind("c", "0.5 * (z_nearest + z_farthest)");
-    let least = w.number(LEAST_HALF_RANGE);
+    let least = w.number(MIN_HALF_RANGE);
     w.bind("h1", &format!("1.0 / max(0.5 * (z_farthest - z_nearest), {least})"));
     own_moments(w, k);
     w.bind("per_b0", "1.0 / max(others, 1e-30)");
@@ -281,7 +345,11 @@ pub(super) fn recentred_moments(w: &mut Writer, k: usize) {
     // Moments of z − c, one factor at a time.
     for pass in 1..=k {
         for i in (pass..=k).rev() {
-            let before = if i == 1 { "c".to_owned() } else { format!("c * m{}", i - 1) };
+            let before = if i == 1 {
+                "c".to_owned()
+            } else {
+                format!("c * m{}", i - 1)
+            };
             w.statement(&format!("m{i} = m{i} - {before};"));
         }
     }
@@ -289,7 +357,11 @@ pub(super) fn recentred_moments(w: &mut Writer, k: usize) {
     w.bind("h3", "h2 * h1");
     w.bind("h4", "h2 * h2");
     for i in 1..=k {
-        let power = if i <= 4 { format!("h{i}") } else { format!("h4 * h{}", i - 4) };
+        let power = if i <= 4 {
+            format!("h{i}")
+        } else {
+            format!("h4 * h{}", i - 4)
+        };
         w.statement(&format!("m{i} = clamp(m{i} * {power}, -1.0, 1.0);"));
     }
 }
@@ -309,7 +381,12 @@ fn first_features(w: &mut Writer) {
     w.bind("deviation2", &deviation);
     w.bind("trust2", "deviation2 * deviation2 * most0");
     w.bind("doubt2", "noise2 * noise2");
-    w.bind("spread0", &format!("(clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + ({expected}) * doubt2) / (most0 * trust2 + doubt2)"));
+    w.bind(
+        "spread0",
+        &format!(
+            "(clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + ({expected}) * doubt2) / (most0 * trust2 + doubt2)"
+        ),
+    );
 
     // What mean and spread lead to expect has a denominator of its own.
     w.bind("per_mass1", "1.0 / max(1.0 - m2, 1e-6)");
@@ -321,7 +398,10 @@ fn first_features(w: &mut Writer) {
     w.bind("doubt3", "bounded3 * bounded3");
     w.bind("expected3", "mean0 * (1.0 - spread0)");
     w.bind("raw_mean1", "clamp((m1 - m3) * per_mass1, -1.0, 1.0)");
-    w.bind("mean1", "(raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3))");
+    w.bind(
+        "mean1",
+        "(raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3))",
+    );
 }
 
 /// The closed form of four fragments: optical depth in front.
@@ -330,10 +410,19 @@ fn four(w: &mut Writer) {
     w.bind("noise", &format!("bounded3 + {rounding} * per_mass1"));
     w.bind("off", "noise * deviation3 / (noise + deviation3)");
     w.bind("inner", "(1.0 - spread0) * (1.0 - mean0 * mean0)");
-    w.bind("near_share", "clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0)");
-    w.bind("far_share", "clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0)");
+    w.bind(
+        "near_share",
+        "clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0)",
+    );
+    w.bind(
+        "far_share",
+        "clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0)",
+    );
     w.bind("behind", "clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0)");
-    w.bind("front4", "others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0)");
+    w.bind(
+        "front4",
+        "others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0)",
+    );
 }
 
 /// The other features. Returns the names of all.
@@ -353,8 +442,14 @@ fn features(w: &mut Writer, k: usize) -> Vec<String> {
     w.bind("trust4", "deviation4 * deviation4 * most1");
     w.bind("bounded4", "min(noise3 * further * per_mass1, 1e15)");
     w.bind("doubt4", "bounded4 * bounded4");
-    w.bind("raw_square1", "clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1)");
-    w.bind("square1", "(raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4))");
+    w.bind(
+        "raw_square1",
+        "clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1)",
+    );
+    w.bind(
+        "square1",
+        "(raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4))",
+    );
     w.bind("spread1", "sqrt(square1)");
     items.extend(["mean0", "spread0", "mean1", "spread1"].map(str::to_owned));
 
@@ -362,7 +457,9 @@ fn features(w: &mut Writer, k: usize) -> Vec<String> {
         return items;
     }
     // Beyond, moments of (1 − x²)² μ and so on: differences of differences.
-    let mut q: Vec<String> = std::iter::once("1.0".to_owned()).chain((1..=k).map(|i| format!("m{i}"))).collect();
+    let mut q: Vec<String> = std::iter::once("1.0".to_owned())
+        .chain((1..=k).map(|i| format!("m{i}")))
+        .collect();
     for level in 1..k / 2 {
         q = (0..q.len() - 2)
             .map(|i| {
@@ -378,12 +475,29 @@ fn features(w: &mut Writer, k: usize) -> Vec<String> {
         w.bind(&format!("per_mass{level}"), &format!("1.0 / max({}, 1e-6)", q[0]));
         w.bind(&mean, &format!("clamp({} * per_mass{level}, -1.0, 1.0)", q[1]));
         w.bind(&format!("most{level}"), &format!("max(1.0 - {mean} * {mean}, 1e-6)"));
-        w.bind(&spread, &format!("sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / most{level}, 0.0, 1.0))", q[2]));
-        for (of, moment, value) in
-            [(&mean, 2 * level + 1, format!("{mean} * trust_{mean}")), (&spread, 2 * level + 2, format!("0.5 + ({spread} - 0.5) * trust_{spread}"))]
-        {
-            w.bind(&format!("noise_{of}"), &format!("e1{} * per_mass{level}", " * reach".repeat(moment - 1)));
-            w.bind(&format!("trust_{of}"), &format!("1.0 / (1.0 + noise_{of} * noise_{of})"));
+        w.bind(
+            &spread,
+            &format!(
+                "sqrt(clamp(({} * per_mass{level} - {mean} * {mean}) / most{level}, 0.0, 1.0))",
+                q[2]
+            ),
+        );
+        for (of, moment, value) in [
+            (&mean, 2 * level + 1, format!("{mean} * trust_{mean}")),
+            (
+                &spread,
+                2 * level + 2,
+                format!("0.5 + ({spread} - 0.5) * trust_{spread}"),
+            ),
+        ] {
+            w.bind(
+                &format!("noise_{of}"),
+                &format!("e1{} * per_mass{level}", " * reach".repeat(moment - 1)),
+            );
+            w.bind(
+                &format!("trust_{of}"),
+                &format!("1.0 / (1.0 + noise_{of} * noise_{of})"),
+            );
             w.bind(&format!("sure_{of}"), &value);
             items.push(format!("sure_{of}"));
         }

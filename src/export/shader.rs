@@ -1,7 +1,7 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
 
 use super::{ExportError, recentred, visible};
-use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE, MomentDepthKind};
+use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE, MomentDepthKind};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
 use crate::numeric::quantise::round_f16;
@@ -70,7 +70,9 @@ impl Language {
             (Self::Wgsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.wgsl"),
             (Self::Glsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.glsl"),
             (Self::Hlsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.hlsl"),
-            (_, set @ (FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)) => return recentred::source(self, set),
+            (_, set @ (FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)) => {
+                return recentred::source(self, set);
+            }
         };
         text.to_owned()
     }
@@ -176,7 +178,10 @@ impl Numbers {
             Language::Glsl => (format!("const {element} {name}[{n}] = {element}[{n}](\n"), "\n);\n"),
             Language::Hlsl => (format!("static const {element} {name}[{n}] = {{\n"), "\n};\n"),
         };
-        let lines: Vec<String> = items.chunks(per_line).map(|line| format!("    {}", line.join(", "))).collect();
+        let lines: Vec<String> = items
+            .chunks(per_line)
+            .map(|line| format!("    {}", line.join(", ")))
+            .collect();
         head + &lines.join(",\n") + end
     }
 }
@@ -185,7 +190,10 @@ impl Numbers {
 fn shortest_half(x: f32) -> f32 {
     let half = round_f16(x.into());
     let candidates = (0..8).filter_map(|digits| format!("{half:.digits$e}").parse::<f32>().ok());
-    candidates.into_iter().find(|&c| round_f16(c.into()) == half).unwrap_or(half as f32)
+    candidates
+        .into_iter()
+        .find(|&c| round_f16(c.into()) == half)
+        .unwrap_or(half as f32)
 }
 
 /// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
@@ -198,18 +206,29 @@ pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
 }
 
 /// Greatest finite f16.
-const MOST_HALF: f64 = 65504.0;
+const MAX_HALF: f64 = 65504.0;
 
 /// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered and rounded, none overflows.
 ///
 /// # Errors
 /// [`ExportError::Half`] where a weight does not fit, or features of the usual size could overflow.
 pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
-    let refused = |reason: String| ExportError::Half { network: mlp.name().to_owned(), reason };
+    let refused = |reason: String| ExportError::Half {
+        network: mlp.name().to_owned(),
+        reason,
+    };
     let hidden = &mlp.layers()[..mlp.layers().len() - 1];
     for (index, dense) in hidden.iter().enumerate() {
-        if let Some(w) = dense.weights.iter().chain(&dense.biases).find(|w| f64::from(w.abs()) > MOST_HALF) {
-            return Err(refused(format!("layer {} holds the weight {w}, and f16 ends at {MOST_HALF}", index + 1)));
+        if let Some(w) = dense
+            .weights
+            .iter()
+            .chain(&dense.biases)
+            .find(|w| f64::from(w.abs()) > MAX_HALF)
+        {
+            return Err(refused(format!(
+                "layer {} holds the weight {w}, and f16 ends at {MAX_HALF}",
+                index + 1
+            )));
         }
     }
     // Half of the range is left to rounding.
@@ -230,7 +249,7 @@ pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
                 greatest = greatest.max(most).max(-least);
                 next.push(most);
             }
-            if greatest > MOST_HALF / 2.0 {
+            if greatest > MAX_HALF / 2.0 {
                 return false;
             }
             low = vec![0.0; next.len()];
@@ -239,11 +258,18 @@ pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
         true
     };
     // Recentred features are of the order of 1, with logarithms up to 10; the others count fragments and absorbance.
-    let least = if mlp.feature_set().moment_depth() == MomentDepthKind::Log { 4 } else { 6 };
+    let least = if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
+        4
+    } else {
+        6
+    };
     let power = (least..=14).rev().find(|&p| fits(2f64.powi(p)));
-    power
-        .map(|p| 2f32.powi(p))
-        .ok_or_else(|| refused(format!("features of {} could overflow its sums, and f16 ends at {MOST_HALF}; export it in f32", 2f64.powi(least))))
+    power.map(|p| 2f32.powi(p)).ok_or_else(|| {
+        refused(format!(
+            "features of {} could overflow its sums, and f16 ends at {MAX_HALF}; export it in f32",
+            2f64.powi(least)
+        ))
+    })
 }
 
 /// A whole include file.
@@ -276,14 +302,23 @@ pub fn source(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
 
 /// Lines as a comment, and an empty line behind it.
 pub(super) fn comment(lines: &[String]) -> String {
-    lines.iter().map(|line| format!("//{}{}\n", if line.is_empty() { "" } else { " " }, one_line(line))).collect::<String>() + "\n"
+    lines
+        .iter()
+        .map(|line| format!("//{}{}\n", if line.is_empty() { "" } else { " " }, one_line(line)))
+        .collect::<String>()
+        + "\n"
 }
 
 /// What the file is, what to feed it and what to expect.
 pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
     let set = mlp.feature_set();
     let mut lines = vec![
-        format!("Neural moment transparency: network '{}', {}, {} multiply-adds.", mlp.name(), mlp.shape(), mlp.multiply_adds()),
+        format!(
+            "Neural moment transparency: network '{}', {}, {} multiply-adds.",
+            mlp.name(),
+            mlp.shape(),
+            mlp.multiply_adds()
+        ),
         match kind.form {
             Form::Plain => "Form: unrolled scalars. Weights are [in][out]; every index is a literal.".to_owned(),
             Form::Packed => "Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.".to_owned(),
@@ -298,7 +333,14 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
     if let Some(pruned) = &mlp.provenance.pruned {
         lines.extend(pruned_lines(pruned, kind.form));
     }
-    lines.extend([String::new(), format!("Features, set '{}', in this order: {}.", set.name(), set.columns().join(", "))]);
+    lines.extend([
+        String::new(),
+        format!(
+            "Features, set '{}', in this order: {}.",
+            set.name(),
+            set.columns().join(", ")
+        ),
+    ]);
     lines.extend(set.description().iter().map(|&l| l.to_owned()));
     lines.push(String::new());
     let p = &mlp.provenance;
@@ -314,7 +356,14 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect();
-    lines.push(format!("Provenance: {}.", if origin.is_empty() { "unknown".to_owned() } else { origin.join(", ") }));
+    lines.push(format!(
+        "Provenance: {}.",
+        if origin.is_empty() {
+            "unknown".to_owned()
+        } else {
+            origin.join(", ")
+        }
+    ));
     lines.push(match (p.transmittance_mse, p.transmittance_worst_error) {
         (Some(mse), Some(worst)) => {
             format!("Measured on fresh pixels of the training distribution: mean squared error of T {mse:.3e}, worst {worst:.3}.")
@@ -332,7 +381,10 @@ fn half_lines(language: Language, limit: f32, (worst, mean): (f64, f64)) -> Vec<
         format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
     ];
     if language == Language::Hlsl {
-        lines.push("DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise.".to_owned());
+        lines.push(
+            "DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."
+                .to_owned(),
+        );
     }
     lines
 }
@@ -342,10 +394,16 @@ pub const PRUNED: &str = "Pruned: ";
 
 /// What is to be known of units that were taken out.
 fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
-    let bits = if form == Form::Plain { ", to the bit" } else { ", but for the order of sums" };
+    let bits = if form == Form::Plain {
+        ", to the bit"
+    } else {
+        ", but for the order of sums"
+    };
     let region = match (pruned.count(), pruned.rows) {
         (0, _) => "Every hidden unit of the trained network fires somewhere; nothing was taken out.".to_owned(),
-        (_, 0) => format!("What was taken out cannot fire, or nothing listens to it: answers are exact for all features{bits}."),
+        (_, 0) => format!(
+            "What was taken out cannot fire, or nothing listens to it: answers are exact for all features{bits}."
+        ),
         (_, rows) => format!(
             "What was taken out fired on none of {rows} random rows of the training distribution: on fewer than {:.1e} of them, at 95 % confidence. Where it \
              would not fire, answers are exact{bits}; elsewhere they are off by what it would add.",
@@ -357,7 +415,9 @@ fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
 
 /// Text from a file, made safe inside a line comment.
 fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() || c == '\\' { ' ' } else { c }).collect()
+    text.chars()
+        .map(|c| if c.is_control() || c == '\\' { ' ' } else { c })
+        .collect()
 }
 
 /// Name of layer `index`'s weights, biases, and blocks of weights.
@@ -402,7 +462,10 @@ struct Network<'a> {
 
 impl Network<'_> {
     fn numbers(&self, precision: Precision) -> Numbers {
-        Numbers { language: self.kind.language, precision }
+        Numbers {
+            language: self.kind.language,
+            precision,
+        }
     }
 
     fn last(&self) -> usize {
@@ -411,29 +474,50 @@ impl Network<'_> {
 
     /// Numbers of a layer's weights: the last layer is f32 always.
     fn of_layer(&self, index: usize) -> Numbers {
-        self.numbers(if index == self.last() { Precision::F32 } else { self.kind.precision })
+        self.numbers(if index == self.last() {
+            Precision::F32
+        } else {
+            self.kind.precision
+        })
     }
 
     /// An activation of the layer before as the layer wants it.
     fn converted(&self, index: usize, kind: impl Fn(Numbers) -> String, value: String) -> String {
-        let before = if index == 0 { self.numbers(Precision::F32) } else { self.of_layer(index - 1) };
-        if before == self.of_layer(index) { value } else { format!("{}({value})", kind(self.of_layer(index))) }
+        let before = if index == 0 {
+            self.numbers(Precision::F32)
+        } else {
+            self.of_layer(index - 1)
+        };
+        if before == self.of_layer(index) {
+            value
+        } else {
+            format!("{}({value})", kind(self.of_layer(index)))
+        }
     }
 
     fn head(&self, text: &mut String) {
         let set = self.mlp.feature_set();
         let what = match set.answer() {
             Answer::Sigmoid => "Transmittance in front of the fragment with features f",
-            Answer::Fraction { .. } => "Share of the other fragments' absorbance that lies in front of the fragment with features f",
+            Answer::Fraction { .. } => {
+                "Share of the other fragments' absorbance that lies in front of the fragment with features f"
+            }
         };
-        let _ = write!(text, "\n// {what}, in [0, 1].\n{}", self.kind.language.function(network_function(set), set.width()));
+        let _ = write!(
+            text,
+            "\n// {what}, in [0, 1].\n{}",
+            self.kind.language.function(network_function(set), set.width())
+        );
     }
 
     fn plain(&self, text: &mut String) {
         let language = self.kind.language;
         for (index, dense) in self.mlp.layers().iter().enumerate() {
             let numbers = self.of_layer(index);
-            for (name, values) in [(weights_name(index), &dense.weights), (biases_name(index), &dense.biases)] {
+            for (name, values) in [
+                (weights_name(index), &dense.weights),
+                (biases_name(index), &dense.biases),
+            ] {
                 let literals: Vec<String> = values.iter().map(|&v| numbers.literal(v)).collect();
                 *text += &numbers.array_constant(&name, numbers.scalar(), &literals, 8);
             }
@@ -445,7 +529,11 @@ impl Network<'_> {
             let mut input = |i: usize| {
                 let clamped = self.limit.filter(|_| index == 0 && index != self.last());
                 let value = match (index, clamped) {
-                    (0, Some(limit)) => format!("clamp(f[{i}], {}, {})", language.literal(-limit), language.literal(limit)),
+                    (0, Some(limit)) => format!(
+                        "clamp(f[{i}], {}, {})",
+                        language.literal(-limit),
+                        language.literal(limit)
+                    ),
                     (0, None) => format!("f[{i}]"),
                     _ => format!("h{index}_{i}"),
                 };
@@ -469,7 +557,11 @@ impl Network<'_> {
                 }
                 *text += &match index == self.last() {
                     true => language.bind("float", "logit", &sum),
-                    false => language.bind(numbers.scalar(), &format!("h{}_{o}", index + 1), &format!("max({sum}, {})", self.zero(numbers))),
+                    false => language.bind(
+                        numbers.scalar(),
+                        &format!("h{}_{o}", index + 1),
+                        &format!("max({sum}, {})", self.zero(numbers)),
+                    ),
                 };
             }
         }
@@ -479,7 +571,11 @@ impl Network<'_> {
     /// 0 beside a scalar.
     fn zero(&self, numbers: Numbers) -> String {
         // An untyped 0.0 is an f32 in every language.
-        if numbers.precision == Precision::F32 { "0.0".to_owned() } else { numbers.literal(0.0) }
+        if numbers.precision == Precision::F32 {
+            "0.0".to_owned()
+        } else {
+            numbers.literal(0.0)
+        }
     }
 
     /// From the logit to the answer, without overflow; what [`Mlp::forward`] does.
@@ -488,7 +584,11 @@ impl Network<'_> {
         // 1/(1 + e^−x)
         let mut text = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n".to_owned();
         if let Answer::Fraction { column, offset } = self.mlp.feature_set().answer() {
-            let absorbance = format!("max(exp(min(f[{column}], {})) - {}, 0.0)", language.literal(MOST_LOG_ABSORBANCE), language.literal(offset));
+            let absorbance = format!(
+                "max(exp(min(f[{column}], {})) - {}, 0.0)",
+                language.literal(MAX_LOG_ABSORBANCE),
+                language.literal(offset)
+            );
             let _ = write!(
                 text,
                 "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
@@ -506,12 +606,20 @@ impl Network<'_> {
             let (inputs, outputs) = (groups(dense.inputs()), groups(dense.outputs()));
             if index == self.last() {
                 // One output: a row of weights, four inputs to a vector.
-                let rows: Vec<String> = (0..inputs).map(|i| numbers.vector(block(dense, 0, i).map(|column| column[0]))).collect();
+                let rows: Vec<String> = (0..inputs)
+                    .map(|i| numbers.vector(block(dense, 0, i).map(|column| column[0])))
+                    .collect();
                 *text += &numbers.array_constant(&weights_name(index), &numbers.vec4(), &rows, 1);
             } else {
                 let blocks: Vec<String> = (0..outputs)
                     .flat_map(|g| (0..inputs).map(move |i| (g, i)))
-                    .map(|(g, i)| format!("{}({})", numbers.mat4(), block(dense, g, i).map(|v| numbers.vector(v)).join(", ")))
+                    .map(|(g, i)| {
+                        format!(
+                            "{}({})",
+                            numbers.mat4(),
+                            block(dense, g, i).map(|v| numbers.vector(v)).join(", ")
+                        )
+                    })
                     .collect();
                 *text += &numbers.array_constant(&weights_name(index), &numbers.mat4(), &blocks, 1);
             }
@@ -520,7 +628,9 @@ impl Network<'_> {
                     numbers.scalar_constant(&biases_name(index), dense.biases[0])
                 } else {
                     let bias = |at: usize| dense.biases.get(at).copied().unwrap_or(0.0);
-                    let biases: Vec<String> = (0..outputs).map(|g| numbers.vector(std::array::from_fn(|row| bias(4 * g + row)))).collect();
+                    let biases: Vec<String> = (0..outputs)
+                        .map(|g| numbers.vector(std::array::from_fn(|row| bias(4 * g + row))))
+                        .collect();
                     numbers.array_constant(&biases_name(index), &numbers.vec4(), &biases, 1)
                 };
             }
@@ -564,10 +674,19 @@ impl Network<'_> {
             for g in 0..groups(dense.outputs()) {
                 // A block of nothing but zeros adds nothing.
                 let used = (0..inputs).filter(|&i| block(dense, g, i).iter().flatten().any(|&w| w != 0.0));
-                let terms = used.map(|i| numbers.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
-                let sum: Vec<String> = (!folded).then(|| format!("{}[{g}]", biases_name(index))).into_iter().chain(terms).collect();
+                let terms =
+                    used.map(|i| numbers.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
+                let sum: Vec<String> = (!folded)
+                    .then(|| format!("{}[{g}]", biases_name(index)))
+                    .into_iter()
+                    .chain(terms)
+                    .collect();
                 let zero = numbers.splat(0.0);
-                let mut value = if sum.is_empty() { zero } else { format!("max({}, {zero})", sum.join(" + ")) };
+                let mut value = if sum.is_empty() {
+                    zero
+                } else {
+                    format!("max({}, {zero})", sum.join(" + "))
+                };
                 let filled = dense.outputs() - 4 * g;
                 if filled < 4 {
                     // The next layer finds its biases' constant 1 in the first free lane.
@@ -591,11 +710,26 @@ mod tests {
     #[test]
     fn text_of_a_tiny_network() {
         let mut mlp = random_mlp(&[3], 1);
-        mlp.provenance = Provenance { source: "a test\nwith a line break \\".to_owned(), seed: Some(1), ..Provenance::default() };
-        for (language, name) in [(Language::Wgsl, "wgsl"), (Language::Glsl, "glsl"), (Language::Hlsl, "hlsl")] {
+        mlp.provenance = Provenance {
+            source: "a test\nwith a line break \\".to_owned(),
+            seed: Some(1),
+            ..Provenance::default()
+        };
+        for (language, name) in [
+            (Language::Wgsl, "wgsl"),
+            (Language::Glsl, "glsl"),
+            (Language::Hlsl, "hlsl"),
+        ] {
             for (form, form_name) in [(Form::Plain, "plain"), (Form::Packed, "packed")] {
                 for (precision, suffix) in [(Precision::F32, ""), (Precision::F16, "_f16")] {
-                    match source(&mlp, Kind { language, form, precision }) {
+                    match source(
+                        &mlp,
+                        Kind {
+                            language,
+                            form,
+                            precision,
+                        },
+                    ) {
                         Ok(text) => insta::assert_snapshot!(format!("{form_name}_{name}{suffix}"), text),
                         Err(error) => assert!(language == Language::Glsl && precision == Precision::F16, "{error}"),
                     }
@@ -628,13 +762,17 @@ mod tests {
         let mut rng = crate::numeric::rng::stream(1, 95, 0);
         let mut digits = 0;
         for _ in 0..10_000 {
-            let x = libm::exp2f(rand::RngExt::random_range(&mut rng, -20.0..15.9)) * if rand::RngExt::random(&mut rng) { 1.0 } else { -1.0 };
+            let x = libm::exp2f(rand::RngExt::random_range(&mut rng, -20.0..15.9))
+                * if rand::RngExt::random(&mut rng) { 1.0 } else { -1.0 };
             let short = shortest_half(x);
             assert_eq!(round_f16(short.into()), round_f16(x.into()));
             digits += format!("{short:?}").len();
         }
         assert!(digits < 90_000, "{digits}");
-        assert_eq!((shortest_half(0.1), shortest_half(0.0), shortest_half(-1e-9)), (0.1, 0.0, -0.0));
+        assert_eq!(
+            (shortest_half(0.1), shortest_half(0.0), shortest_half(-1e-9)),
+            (0.1, 0.0, -0.0)
+        );
     }
 
     #[test]

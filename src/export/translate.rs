@@ -19,7 +19,9 @@ pub const FRAGMENTS: &str = "nmt_fragments";
 pub fn parse_wgsl(source: &str) -> Result<(Module, ModuleInfo), String> {
     let mut options = naga::front::wgsl::Options::new();
     options.capabilities |= Capabilities::SHADER_FLOAT16;
-    let module = naga::front::wgsl::Frontend::new_with_options(options).parse(source).map_err(|e| e.emit_to_string(source))?;
+    let module = naga::front::wgsl::Frontend::new_with_options(options)
+        .parse(source)
+        .map_err(|e| e.emit_to_string(source))?;
     let info = validate(&module)?;
     Ok((module, info))
 }
@@ -39,17 +41,28 @@ pub fn validate(module: &Module) -> Result<ModuleInfo, String> {
 /// # Errors
 /// [`ExportError`].
 pub fn metal(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
-    let refused = |reason| ExportError::Translate { language: "MSL", reason };
+    let refused = |reason| ExportError::Translate {
+        language: "MSL",
+        reason,
+    };
     let (module, info) = parse_wgsl(&shader::source(mlp, kind)?).map_err(refused)?;
-    let options = back::msl::Options { lang_version: (2, 0), ..Default::default() };
-    let (text, _) = back::msl::write_string(&module, &info, &options, &Default::default()).map_err(|e| refused(e.to_string()))?;
-    let more = ["Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'."];
+    let options = back::msl::Options {
+        lang_version: (2, 0),
+        ..Default::default()
+    };
+    let (text, _) =
+        back::msl::write_string(&module, &info, &options, &Default::default()).map_err(|e| refused(e.to_string()))?;
+    let more = [
+        "Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
+    ];
     Ok(shader::comment(&header(mlp, kind, &more)?) + &text)
 }
 
 /// The header of the WGSL that a translation is made of, with more lines after its form.
 fn header(mlp: &Mlp, kind: Kind, more: &[&str]) -> Result<Vec<String>, ExportError> {
-    let limit = (kind.precision == Precision::F16).then(|| shader::half_limit(mlp)).transpose()?;
+    let limit = (kind.precision == Precision::F16)
+        .then(|| shader::half_limit(mlp))
+        .transpose()?;
     let mut lines = shader::header(mlp, kind, limit);
     lines.splice(2..2, more.iter().map(|&l| l.to_owned()));
     Ok(lines)
@@ -58,10 +71,26 @@ fn header(mlp: &Mlp, kind: Kind, more: &[&str]) -> Result<Vec<String>, ExportErr
 /// What the numbers of a row of [`FRAGMENTS`] are; b are the moments.
 fn fragment_arguments(set: FeatureSet) -> (Vec<&'static str>, String) {
     let (names, call): (&[&str], _) = match set {
-        FeatureSet::Paper => (&["w", "w_min", "w_max", "n", "b0"], format!("{ENTRY}(nmt_features(HEAD, vec4<f32>(TAIL)))")),
-        FeatureSet::DeepWeightedBlended => (&["view_z", "v_min", "v_max", "alpha_sum", "n"], format!("{ENTRY}(nmt_features(HEAD))")),
+        FeatureSet::Paper => (
+            &["w", "w_min", "w_max", "n", "b0"],
+            format!("{ENTRY}(nmt_features(HEAD, vec4<f32>(TAIL)))"),
+        ),
+        FeatureSet::DeepWeightedBlended => (
+            &["view_z", "v_min", "v_max", "alpha_sum", "n"],
+            format!("{ENTRY}(nmt_features(HEAD))"),
+        ),
         FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (
-            &["v", "z", "absorbance", "nearest", "farthest", "z_nearest", "z_farthest", "n", "b0"],
+            &[
+                "v",
+                "z",
+                "absorbance",
+                "nearest",
+                "farthest",
+                "z_nearest",
+                "z_farthest",
+                "n",
+                "b0",
+            ],
             format!("nmt_fragment_transmittance(HEAD, array<f32, {}>(TAIL))", set.moments()),
         ),
     };
@@ -72,8 +101,15 @@ fn fragment_arguments(set: FeatureSet) -> (Vec<&'static str>, String) {
 pub fn with_entry_points(source: &str, set: FeatureSet) -> String {
     let (names, call) = fragment_arguments(set);
     let (width, arguments) = (set.width(), names.len() + set.moments());
-    let loads = |base: usize, n: usize| (base..base + n).map(|i| format!("nmt_in[first + {i}u]")).collect::<Vec<_>>().join(", ");
-    let call = call.replace("HEAD", &loads(0, names.len())).replace("TAIL", &loads(names.len(), set.moments()));
+    let loads = |base: usize, n: usize| {
+        (base..base + n)
+            .map(|i| format!("nmt_in[first + {i}u]"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let call = call
+        .replace("HEAD", &loads(0, names.len()))
+        .replace("TAIL", &loads(names.len(), set.moments()));
     let rows = format!("{ENTRY}(array<f32, {width}>({}))", loads(0, width));
     let mut text = format!(
         "{source}
@@ -103,16 +139,24 @@ fn {name}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
 /// # Errors
 /// [`ExportError`].
 pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
-    let refused = |reason| ExportError::Translate { language: "SPIR-V", reason };
+    let refused = |reason| ExportError::Translate {
+        language: "SPIR-V",
+        reason,
+    };
     let set = mlp.feature_set();
     let (module, info) = parse_wgsl(&with_entry_points(&shader::source(mlp, kind)?, set)).map_err(refused)?;
-    let options = back::spv::Options { flags: back::spv::WriterFlags::DEBUG, ..Default::default() };
+    let options = back::spv::Options {
+        flags: back::spv::WriterFlags::DEBUG,
+        ..Default::default()
+    };
     let words = back::spv::write_vec(&module, &info, &options, None).map_err(|e| refused(e.to_string()))?;
     let (mut arguments, _) = fragment_arguments(set);
     let moments: Vec<String> = (1..=set.moments()).map(|i| format!("b{i}")).collect();
     arguments.extend(moments.iter().map(String::as_str));
-    let (rows, fragments) =
-        (format!("{ROWS}: row by row the {} features below;", set.width()), format!("{FRAGMENTS}: row by row {}.", arguments.join(", ")));
+    let (rows, fragments) = (
+        format!("{ROWS}: row by row the {} features below;", set.width()),
+        format!("{FRAGMENTS}: row by row {}.", arguments.join(", ")),
+    );
     let more = [
         "SPIR-V, translated from the WGSL export by naga. Compute shaders of 64 invocations: row = x + y * 64 * (workgroups in x).",
         "Set 0: binding 0 is a storage buffer of f32 to read, binding 1 one to write, T of one row a number; their lengths say how many rows.",
@@ -141,7 +185,11 @@ fn with_string(words: &[u32], text: &str) -> Vec<u32> {
     bytes.resize((bytes.len() + 1).next_multiple_of(4), 0);
     let mut out = words[..at].to_vec();
     out.extend([((bytes.len() as u32 / 4 + 2) << 16) | OP_STRING, words[BOUND]]);
-    out.extend(bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
+    out.extend(
+        bytes
+            .chunks_exact(4)
+            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])),
+    );
     out.extend(&words[at..]);
     out[BOUND] += 1;
     out
@@ -149,7 +197,10 @@ fn with_string(words: &[u32], text: &str) -> Vec<u32> {
 
 /// Instructions of a SPIR-V module: opcode and operands; none where it is not one.
 pub fn instructions(bytes: &[u8]) -> Option<Vec<(u32, Vec<u32>)>> {
-    let words: Vec<u32> = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    let words: Vec<u32> = bytes
+        .chunks_exact(4)
+        .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        .collect();
     if !bytes.len().is_multiple_of(4) || words.first() != Some(&0x0723_0203) || words.len() < 5 {
         return None;
     }
@@ -165,6 +216,11 @@ pub fn instructions(bytes: &[u8]) -> Option<Vec<(u32, Vec<u32>)>> {
 /// The first OpString of a SPIR-V module.
 pub fn string_of(bytes: &[u8]) -> Option<String> {
     let found = instructions(bytes)?.into_iter().find(|(op, _)| *op == OP_STRING)?.1;
-    let text: Vec<u8> = found.get(1..)?.iter().flat_map(|w| w.to_le_bytes()).take_while(|&b| b != 0).collect();
+    let text: Vec<u8> = found
+        .get(1..)?
+        .iter()
+        .flat_map(|w| w.to_le_bytes())
+        .take_while(|&b| b != 0)
+        .collect();
     String::from_utf8(text).ok()
 }

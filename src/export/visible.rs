@@ -3,8 +3,8 @@
 use super::recentred::{LOOK, ROUNDING, Writer, look_parameters, recentred_moments};
 use super::shader::{Language, Numbers, Precision};
 use crate::features::FeatureSet;
-use crate::features::recentred::MOST_ABSORBANCE;
-use crate::features::visible::{FAINT, HIDDEN, LEAST_HIDING, ORDER};
+use crate::features::recentred::MAX_ABSORBANCE;
+use crate::features::visible::{FAINT, HIDDEN, MIN_HIDING, ORDER};
 
 /// Greatest b0 of a pixel whose fragments are answered without the network.
 pub const FAINT_SWITCH: &str = "NMT_FAINT";
@@ -16,7 +16,10 @@ pub const HIDDEN_SWITCH: &str = "NMT_HIDDEN";
 pub fn source(language: Language, set: FeatureSet) -> String {
     let k = set.moments();
     let mut w = Writer::new(language);
-    let numbers = Numbers { language, precision: Precision::F32 };
+    let numbers = Numbers {
+        language,
+        precision: Precision::F32,
+    };
     w.line("\n// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in [0, 1].");
     w.line("// Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a display step of 1/256.");
     w.text += &numbers.scalar_constant(FAINT_SWITCH, FAINT);
@@ -25,22 +28,29 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.line("// sum to 0.99 where one looks; a network's do not have to.");
     w.text += &numbers.scalar_constant(HIDDEN_SWITCH, HIDDEN);
 
-    let most = w.number(MOST_ABSORBANCE);
+    let most = w.number(MAX_ABSORBANCE);
     let others = format!("clamp(b0 - absorbance, 0.0, {most})");
 
     w.line(
         "\n// Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel lets too much light through.",
     );
     w.function("nmt_first_hidden_depth", &[("b0", 0), ("b1", 0), ("b2", 0)], 0);
-    let least = w.number(LEAST_HIDING.into());
+    let least = w.number(MIN_HIDING.into());
     w.bind("excess", &format!("b0 - {least}"));
-    w.bind("deviation", &format!("sqrt({least} * max(b2 * b0 - b1 * b1, 0.0) / max(excess, 1e-6))"));
+    w.bind(
+        "deviation",
+        &format!("sqrt({least} * max(b2 * b0 - b1 * b1, 0.0) / max(excess, 1e-6))"),
+    );
     let chosen = w.select("excess > 0.0", "(b1 + deviation) / max(b0, 1e-30)", "3e38");
     w.give(&chosen);
 
     w.line("\n// The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments. Polynomials that are 0 or more in the pixel");
     w.line("// and 1 or more from the fragment on bound the share that lies there, rounding included.");
-    let weighed: Vec<&str> = LOOK[1..].iter().copied().filter(|name| !["nearest", "farthest"].contains(name)).collect();
+    let weighed: Vec<&str> = LOOK[1..]
+        .iter()
+        .copied()
+        .filter(|name| !["nearest", "farthest"].contains(name))
+        .collect();
     let parameters: Vec<(&str, usize)> = weighed.iter().map(|&name| (name, 0)).chain([("b", k)]).collect();
     w.function("nmt_hidden_weight", &parameters, 0);
     w.bind("others", &others);
@@ -56,7 +66,10 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.bind("r1", "max(m1 - max(m2 - m1 * m1, 0.0) / max(ahead, 1e-30), -1e6)");
     w.bind("gap1", "x - r1");
     w.bind("reach1", "reach + abs(r1)");
-    w.bind("share1", "(m2 - 2.0 * r1 * m1 + r1 * r1 + unsure * reach1 * reach1) / max(gap1 * gap1, 1e-30)");
+    w.bind(
+        "share1",
+        "(m2 - 2.0 * r1 * m1 + r1 * r1 + unsure * reach1 * reach1) / max(gap1 * gap1, 1e-30)",
+    );
     // The quartic.
     w.bind("w1", "m1 - m3");
     w.bind("below", "w1 - x * (1.0 - m2)");
@@ -68,14 +81,20 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.bind("r", &zero);
     w.bind("gap", "x - r");
     w.bind("per_value", "1.0 / max((end + x) * gap * gap, 1e-30)");
-    w.bind("gamma", "0.99999 * (1.0 - 1.0 / (2.0 * end * (end - r) * (end - r) * per_value)) / (end - x)");
+    w.bind(
+        "gamma",
+        "0.99999 * (1.0 - 1.0 / (2.0 * end * (end - r) * (end - r) * per_value)) / (end - x)",
+    );
     w.bind("lift", "1.0 + gamma * x");
     w.bind("p0", "end * r * r");
     w.bind("p1", "r * r - 2.0 * r * end");
     w.bind("p2", "end - 2.0 * r");
     w.bind("value", "p0 * lift + (p1 * lift - gamma * p0) * m1 + (p2 * lift - gamma * p1) * m2 + (lift - gamma * p2) * m3 - gamma * m4");
     w.bind("reach2", "reach + abs(r)");
-    w.bind("lost", "unsure * (end + reach) * reach2 * reach2 * (1.0 + gamma * (abs(x) + reach))");
+    w.bind(
+        "lost",
+        "unsure * (end + reach) * reach2 * reach2 * (1.0 + gamma * (abs(x) + reach))",
+    );
     w.bind("share2", "(value + lost) * per_value");
     w.bind("share", "1.00001 * min(share1, share2)");
     // NaN is not less than 1 either.
@@ -83,7 +102,10 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.bind("below_1", &behind);
     let behind = w.select("ahead > 0.0", "below_1", "1.0");
     w.bind("behind", &behind);
-    w.bind("least_depth", &format!("others * (1.0 - behind) - (n + 4.0) * {ROUNDING} * b0 - 1e-5"));
+    w.bind(
+        "least_depth",
+        &format!("others * (1.0 - behind) - (n + 4.0) * {ROUNDING} * b0 - 1e-5"),
+    );
     w.give("exp(-least_depth) * min(others * behind + absorbance, n - 2.0)");
 
     w.line("\n// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels");
@@ -99,7 +121,10 @@ pub fn source(language: Language, set: FeatureSet) -> String {
     w.close();
     w.open(&format!("{HIDDEN_SWITCH} > 0.0"));
     w.open("z >= nmt_first_hidden_depth(b0, b[0], b[1])");
-    w.open(&format!("nmt_hidden_weight({}, b) <= {HIDDEN_SWITCH}", weighed.join(", ")));
+    w.open(&format!(
+        "nmt_hidden_weight({}, b) <= {HIDDEN_SWITCH}",
+        weighed.join(", ")
+    ));
     w.statement("front = others;");
     for _ in 0..7 {
         w.close();

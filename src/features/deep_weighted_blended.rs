@@ -41,7 +41,11 @@ impl LinearRange {
 
     /// Where a view depth lies in the range, in [0, 1].
     pub fn relative(&self, ViewZ(v): ViewZ) -> f64 {
-        if self.extent > 0.0 { ((v - self.v0) / self.extent).clamp(0.0, 1.0) } else { 0.0 }
+        if self.extent > 0.0 {
+            ((v - self.v0) / self.extent).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
     }
 }
 
@@ -73,9 +77,25 @@ mod tests {
     fn three_fragments_by_hand() {
         let range = LinearRange::new(ViewZ(2.0), ViewZ(6.0)).unwrap();
         let mut out = [f32::NAN; 9];
-        extract(Pixel { view_z: &[3.0, 2.0, 6.0], alpha: &[0.5, 0.0, 1.0], color: None }, range, &mut out);
+        extract(
+            Pixel {
+                view_z: &[3.0, 2.0, 6.0],
+                alpha: &[0.5, 0.0, 1.0],
+                color: None,
+            },
+            range,
+            &mut out,
+        );
         assert_eq!(out, [0.25, 1.5, 3.0, 0.0, 1.5, 3.0, 1.0, 1.5, 3.0]);
-        extract(Pixel { view_z: &[], alpha: &[], color: None }, range, &mut []);
+        extract(
+            Pixel {
+                view_z: &[],
+                alpha: &[],
+                color: None,
+            },
+            range,
+            &mut [],
+        );
     }
 
     #[test]

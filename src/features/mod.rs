@@ -51,7 +51,7 @@ pub enum OutputMeaning {
 }
 
 /// Greatest ln b_0' that an answer is computed with; e^40 is more than anything absorbs, and a finite number in f32.
-pub const MOST_LOG_ABSORBANCE: f32 = 40.0;
+pub const MAX_LOG_ABSORBANCE: f32 = 40.0;
 
 /// How a network's logit becomes its answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,7 +108,13 @@ pub enum MomentDepthKind {
 
 impl FeatureSet {
     /// Every feature set.
-    pub const ALL: [Self; 5] = [Self::Paper, Self::DeepWeightedBlended, Self::Recentred, Self::Recentred6, Self::Recentred8];
+    pub const ALL: [Self; 5] = [
+        Self::Paper,
+        Self::DeepWeightedBlended,
+        Self::Recentred,
+        Self::Recentred6,
+        Self::Recentred8,
+    ];
 
     /// Its name in configs, model files and file headers.
     pub fn name(self) -> &'static str {
@@ -157,7 +163,10 @@ impl FeatureSet {
     pub fn answer(self) -> Answer {
         match self.output() {
             OutputMeaning::Transmittance | OutputMeaning::FrontToBackFactor => Answer::Sigmoid,
-            OutputMeaning::AbsorbanceShare => Answer::Fraction { column: recentred::ABSORBANCE_COLUMN, offset: recentred::ABSORBANCE_OFFSET },
+            OutputMeaning::AbsorbanceShare => Answer::Fraction {
+                column: recentred::ABSORBANCE_COLUMN,
+                offset: recentred::ABSORBANCE_OFFSET,
+            },
         }
     }
 
@@ -235,9 +244,15 @@ impl Storage {
         match self {
             Self::F32 => Rounding::of_arithmetic(),
             // Ten bits after the point.
-            Self::F16 => Rounding { unit: 1.0 / 1024.0, every_addition: true },
+            Self::F16 => Rounding {
+                unit: 1.0 / 1024.0,
+                every_addition: true,
+            },
             // Half a step through the transform's inverse, whose columns add up to 3.
-            Self::Unorm16 => Rounding { unit: 1.5 / 65535.0, every_addition: false },
+            Self::Unorm16 => Rounding {
+                unit: 1.5 / 65535.0,
+                every_addition: false,
+            },
         }
     }
 }
@@ -276,7 +291,10 @@ impl Sampled {
     /// Fills the lanes with a pixel: `to_depth` takes view depths to those that the feature set measures.
     fn see(&mut self, pixel: Pixel<'_>, to_depth: &impl ToDepth) {
         let n = pixel.len().div_ceil(LANES);
-        for (lanes, values, rest) in [(&mut self.view_z, pixel.view_z, f32::INFINITY), (&mut self.alpha_lanes, pixel.alpha, 0.0)] {
+        for (lanes, values, rest) in [
+            (&mut self.view_z, pixel.view_z, f32::INFINITY),
+            (&mut self.alpha_lanes, pixel.alpha, 0.0),
+        ] {
             lanes.clear();
             let (whole, last) = values.as_chunks();
             lanes.extend(whole.iter().map(|&chunk| Lanes(chunk)));
@@ -288,7 +306,13 @@ impl Sampled {
         }
         self.depth.resize(n, Lanes::ZERO);
         self.absorbance.resize(n, Lanes::ZERO);
-        let Self { view_z, alpha_lanes, depth, absorbance, .. } = self;
+        let Self {
+            view_z,
+            alpha_lanes,
+            depth,
+            absorbance,
+            ..
+        } = self;
         dispatch!(Level::new(), simd => see_lanes(simd, to_depth, view_z, alpha_lanes, depth, absorbance));
     }
 }
@@ -296,7 +320,11 @@ impl Sampled {
 impl Sampled {
     /// A fragment as both passes see it.
     fn seen(&self, i: usize) -> Seen<f32> {
-        Seen { view_z: at(&self.view_z, i), z: at(&self.depth, i), absorbance: at(&self.absorbance, i) }
+        Seen {
+            view_z: at(&self.view_z, i),
+            z: at(&self.depth, i),
+            absorbance: at(&self.absorbance, i),
+        }
     }
 
     /// Makes rows of at most `most` of n fragments, chosen at random among those of which `row` makes one; it appends the features, or says that there are none.
@@ -318,7 +346,13 @@ impl Sampled {
             }
         }
         self.of_pixel = self.before.len();
-        let Self { view_z, absorbance, before, targets, .. } = self;
+        let Self {
+            view_z,
+            absorbance,
+            before,
+            targets,
+            ..
+        } = self;
         dispatch!(Level::new(), simd => transmittances(simd, view_z, absorbance, before, targets));
     }
 }
@@ -351,7 +385,14 @@ impl ToDepth for CameraPlanes {
 }
 
 #[inline(always)]
-fn see_lanes<S: Simd>(simd: S, to_depth: &impl ToDepth, view_z: &[Lanes], alpha: &[Lanes], depth: &mut [Lanes], absorbance: &mut [Lanes]) {
+fn see_lanes<S: Simd>(
+    simd: S,
+    to_depth: &impl ToDepth,
+    view_z: &[Lanes],
+    alpha: &[Lanes],
+    depth: &mut [Lanes],
+    absorbance: &mut [Lanes],
+) {
     for (((v, a), z), out) in view_z.iter().zip(alpha).zip(depth).zip(absorbance) {
         z.store(to_depth.lanes(simd, v.load(simd)));
         out.store(absorbance_lanes(simd, a.load(simd)));
@@ -386,10 +427,19 @@ fn transmittances<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], befo
 
 /// [`PixelSums`] of n fragments and the depths of their ends: the same numbers to the bit as [`PixelSums::add`] gives, added up in the same order.
 #[inline(always)]
-fn sums_lanes<S: Simd, const K: usize>(simd: S, n: usize, view_z: &[Lanes], depth: &[Lanes], absorbance: &[Lanes]) -> (PixelSums<f32, K>, [f32; 2]) {
+fn sums_lanes<S: Simd, const K: usize>(
+    simd: S,
+    n: usize,
+    view_z: &[Lanes],
+    depth: &[Lanes],
+    absorbance: &[Lanes],
+) -> (PixelSums<f32, K>, [f32; 2]) {
     let splat = |x: f32| f32x16::splat(simd, x);
     let (infinity, none) = (splat(f32::INFINITY), splat(f32::NEG_INFINITY));
-    let mut sums = PixelSums { count: n as u32, ..PixelSums::default() };
+    let mut sums = PixelSums {
+        count: n as u32,
+        ..PixelSums::default()
+    };
     let (mut nearest, mut farthest) = (infinity, none);
     for (index, ((v, z), a)) in view_z.iter().zip(depth).zip(absorbance).enumerate() {
         // What fills the last vector up lies at infinity.
@@ -437,23 +487,43 @@ impl Extractor {
     /// # Errors
     /// [`DepthError::NoPlanes`] where the set needs window depth and no planes are given; [`DepthError::NoRange`] where it needs depth relative to
     /// the scene and no range is given; [`DepthError::BadRange`] where that range is none.
-    pub fn new(set: FeatureSet, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<Self, DepthError> {
-        let range = || depth_range.ok_or(DepthError::NoRange).map(|(v0, v1)| (ViewZ(v0.into()), ViewZ(v1.into())));
+    pub fn new(
+        set: FeatureSet,
+        planes: Option<CameraPlanes>,
+        depth_range: Option<(f32, f32)>,
+    ) -> Result<Self, DepthError> {
+        let range = || {
+            depth_range
+                .ok_or(DepthError::NoRange)
+                .map(|(v0, v1)| (ViewZ(v0.into()), ViewZ(v1.into())))
+        };
         let kind = match set {
             FeatureSet::Paper => Kind::Paper(planes.ok_or(DepthError::NoPlanes)?),
-            FeatureSet::DeepWeightedBlended => range().and_then(|(v0, v1)| LinearRange::new(v0, v1)).map(Kind::DeepWeightedBlended)?,
+            FeatureSet::DeepWeightedBlended => range()
+                .and_then(|(v0, v1)| LinearRange::new(v0, v1))
+                .map(Kind::DeepWeightedBlended)?,
             FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => {
                 range().and_then(|(v0, v1)| LogWarp::new(v0, v1)).map(Kind::Recentred)?
             }
         };
-        Ok(Self { set, kind, storage: Storage::F32, frame: MomentFrame::Scene })
+        Ok(Self {
+            set,
+            kind,
+            storage: Storage::F32,
+            frame: MomentFrame::Scene,
+        })
     }
 
     /// An extractor for the pixels of a list; planes and range that are not given are the list's own.
     ///
     /// # Errors
     /// As [`Self::new`], but a range is always known.
-    pub fn for_list(set: FeatureSet, list: &FragmentList, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<Self, DepthError> {
+    pub fn for_list(
+        set: FeatureSet,
+        list: &FragmentList,
+        planes: Option<CameraPlanes>,
+        depth_range: Option<(f32, f32)>,
+    ) -> Result<Self, DepthError> {
         // A list without fragments has no range, and nothing to apply one to.
         let depth_range = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
         Self::new(set, planes.or(list.planes()), Some(depth_range))
@@ -503,7 +573,12 @@ impl Extractor {
     }
 
     /// Pass 1 over a pixel: its fragments as both passes see them, the sums, and the moment depths of its ends.
-    fn pass_1<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, seen: &mut Vec<Seen<f32>>) -> (PixelSums<f32, K>, [f32; 2]) {
+    fn pass_1<const K: usize>(
+        &self,
+        pixel: Pixel<'_>,
+        warp: LogWarp,
+        seen: &mut Vec<Seen<f32>>,
+    ) -> (PixelSums<f32, K>, [f32; 2]) {
         seen.clear();
         let warp = match self.frame {
             MomentFrame::Pixel if !pixel.is_empty() => own_warp(pixel.view_z),
@@ -512,7 +587,11 @@ impl Extractor {
         let mut sums = PixelSums::<f32, K>::default();
         let mut ends = [0.0; 2];
         for (&view_z, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
-            let one = Seen { view_z, z: warp.moment(ViewZ(view_z.into())).0 as f32, absorbance: absorbance(alpha) as f32 };
+            let one = Seen {
+                view_z,
+                z: warp.moment(ViewZ(view_z.into())).0 as f32,
+                absorbance: absorbance(alpha) as f32,
+            };
             self.add(&mut sums, &mut ends, one);
             seen.push(one);
         }
@@ -522,7 +601,12 @@ impl Extractor {
 
     fn recentred<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, out: &mut [f32]) {
         let width = self.set.width();
-        assert_eq!(out.len(), pixel.len() * (width + 1), "one row of {} numbers a fragment", width + 1);
+        assert_eq!(
+            out.len(),
+            pixel.len() * (width + 1),
+            "one row of {} numbers a fragment",
+            width + 1
+        );
         let mut seen = Vec::with_capacity(pixel.len());
         let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut seen);
         for (row, seen) in out.chunks_exact_mut(width + 1).zip(seen) {
@@ -548,7 +632,11 @@ impl Extractor {
     /// # Panics
     /// If the set is not trained on transmittances.
     pub fn sample(&self, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) {
-        assert_eq!(self.set.target(), Target::Transmittance, "rows are answered with transmittances");
+        assert_eq!(
+            self.set.target(),
+            Target::Transmittance,
+            "rows are answered with transmittances"
+        );
         match (self.kind, self.set.moments()) {
             (Kind::Recentred(warp), 4) => self.sample_of::<4>(pixel, warp, most, rng, rows),
             (Kind::Recentred(warp), 6) => self.sample_of::<6>(pixel, warp, most, rng, rows),
@@ -569,7 +657,14 @@ impl Extractor {
         });
     }
 
-    fn sample_of<const K: usize>(&self, pixel: Pixel<'_>, warp: LogWarp, most: usize, rng: &mut Stream, rows: &mut Sampled) {
+    fn sample_of<const K: usize>(
+        &self,
+        pixel: Pixel<'_>,
+        warp: LogWarp,
+        most: usize,
+        rng: &mut Stream,
+        rows: &mut Sampled,
+    ) {
         let n = pixel.len();
         let warp = match self.frame {
             MomentFrame::Pixel if n > 0 => own_warp(pixel.view_z),
@@ -582,7 +677,12 @@ impl Extractor {
                 rows.depth[i / LANES].0[i % LANES] = warp.moment(ViewZ(v.into())).0 as f32;
             }
         }
-        let Sampled { view_z, depth, absorbance, .. } = &*rows;
+        let Sampled {
+            view_z,
+            depth,
+            absorbance,
+            ..
+        } = &*rows;
         let (mut sums, ends) = if self.storage == Storage::F16 {
             // Every sum is rounded.
             let (mut sums, mut ends) = (PixelSums::default(), [0.0; 2]);
@@ -592,13 +692,15 @@ impl Extractor {
             dispatch!(Level::new(), simd => sums_lanes::<_, K>(simd, n, view_z, depth, absorbance))
         };
         self.keep(&mut sums);
-        rows.choose(n, most, rng, |i, rows| match sums.look_at_stored(rows.seen(i), ends, self.storage.rounding()) {
-            Known::Features(first, measure) => {
-                rows.features.extend_from_slice(&first);
-                rows.features.extend_from_slice(&measure);
-                true
+        rows.choose(n, most, rng, |i, rows| {
+            match sums.look_at_stored(rows.seen(i), ends, self.storage.rounding()) {
+                Known::Features(first, measure) => {
+                    rows.features.extend_from_slice(&first);
+                    rows.features.extend_from_slice(&measure);
+                    true
+                }
+                Known::Transmittance(_) => false,
             }
-            Known::Transmittance(_) => false,
         });
     }
 
@@ -660,12 +762,18 @@ impl Extractor {
 
 /// The log warp between the nearest and the farthest of a pixel's fragments.
 fn own_warp(view_z: &[f32]) -> LogWarp {
-    let (nearest, farthest) = view_z.iter().fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+    let (nearest, farthest) = view_z
+        .iter()
+        .fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
     LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into())).expect("depths of a fragment are positive and finite")
 }
 
 /// Rows of a set that knows nothing without a network, spread out to make room for the column that says so.
-fn unknown(width: usize, out: &mut [f32], extract: impl FnOnce(&mut [f32]) -> Result<(), DepthError>) -> Result<(), DepthError> {
+fn unknown(
+    width: usize,
+    out: &mut [f32],
+    extract: impl FnOnce(&mut [f32]) -> Result<(), DepthError>,
+) -> Result<(), DepthError> {
     let rows = out.len() / (width + 1);
     extract(&mut out[..rows * width])?;
     for i in (0..rows).rev() {
@@ -690,9 +798,18 @@ mod tests {
     #[test]
     fn what_is_missing_is_named() {
         let planes = CameraPlanes::new(0.5, 8.0).ok();
-        assert_eq!(Extractor::new(FeatureSet::Paper, None, Some((1.0, 2.0))).unwrap_err(), DepthError::NoPlanes);
-        assert_eq!(Extractor::new(FeatureSet::DeepWeightedBlended, planes, None).unwrap_err(), DepthError::NoRange);
-        assert!(matches!(Extractor::new(FeatureSet::DeepWeightedBlended, None, Some((2.0, 1.0))), Err(DepthError::BadRange { .. })));
+        assert_eq!(
+            Extractor::new(FeatureSet::Paper, None, Some((1.0, 2.0))).unwrap_err(),
+            DepthError::NoPlanes
+        );
+        assert_eq!(
+            Extractor::new(FeatureSet::DeepWeightedBlended, planes, None).unwrap_err(),
+            DepthError::NoRange
+        );
+        assert!(matches!(
+            Extractor::new(FeatureSet::DeepWeightedBlended, None, Some((2.0, 1.0))),
+            Err(DepthError::BadRange { .. })
+        ));
         for set in FeatureSet::ALL {
             let none = FragmentList::new(vec![0, 0], vec![], vec![], None).unwrap();
             let extractor = Extractor::for_list(set, &none, planes, None).unwrap();
@@ -706,7 +823,10 @@ mod tests {
     fn the_range_is_the_lists_unless_given() {
         let list = FragmentList::new(vec![0, 2, 3], vec![2.0, 3.0, 6.0], vec![0.5, 0.5, 1.0], None).unwrap();
         let depths = |range| {
-            let look = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range).unwrap().list(&list, 0..2).unwrap();
+            let look = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range)
+                .unwrap()
+                .list(&list, 0..2)
+                .unwrap();
             look.features.chunks_exact(3).map(|row| row[0]).collect::<Vec<_>>()
         };
         assert_eq!(depths(None), [0.0, 0.25, 1.0]);
@@ -727,7 +847,11 @@ mod tests {
                 let n = 1 + round % 40;
                 let view_z: Vec<f32> = (0..n).map(|_| rng.random_range(1.0..15.0)).collect();
                 let alpha: Vec<f32> = (0..n).map(|_| rng.random_range(0.01..0.9)).collect();
-                let pixel = Pixel { view_z: &view_z, alpha: &alpha, color: None };
+                let pixel = Pixel {
+                    view_z: &view_z,
+                    alpha: &alpha,
+                    color: None,
+                };
                 let mut whole = vec![0.0; n * (width + 1)];
                 extractor.pixel(pixel, &mut whole).unwrap();
                 let mut exact = vec![0.0; n];
@@ -735,7 +859,10 @@ mod tests {
                 let asked: Vec<usize> = (0..n).filter(|i| whole[i * (width + 1) + width].is_nan()).collect();
                 let mut rows = Sampled::default();
                 extractor.sample(pixel, usize::MAX, &mut rng, &mut rows);
-                assert_eq!((rows.of_pixel, rows.targets.len(), rows.features.len()), (asked.len(), asked.len(), asked.len() * width));
+                assert_eq!(
+                    (rows.of_pixel, rows.targets.len(), rows.features.len()),
+                    (asked.len(), asked.len(), asked.len() * width)
+                );
                 let off = |row: &[f32], i: usize| {
                     let expected = &whole[i * (width + 1)..][..width];
                     // The square root of a small spread makes much of rounding; its square does not.
@@ -747,7 +874,11 @@ mod tests {
                     })
                 };
                 for (k, (&i, row)) in asked.iter().zip(rows.features.chunks_exact(width)).enumerate() {
-                    assert!(!off(row, i) || width > 7, "{set:?} n = {n}: {row:?} for {:?}", &whole[i * (width + 1)..][..width]);
+                    assert!(
+                        !off(row, i) || width > 7,
+                        "{set:?} n = {n}: {row:?} for {:?}",
+                        &whole[i * (width + 1)..][..width]
+                    );
                     assert!((f64::from(rows.targets[k]) - exact[i]).abs() <= 2e-6);
                     assert_eq!(rows.alpha[k], alpha[i]);
                     controls += usize::from(k > 0 && off(row, asked[k - 1]));
@@ -758,7 +889,10 @@ mod tests {
                 extractor.sample(pixel, 3, &mut rng, &mut some);
                 assert_eq!(some.of_pixel, asked.len().min(3));
                 let mut seen: Vec<&[f32]> = some.features.chunks_exact(width).collect();
-                assert!(seen.iter().all(|row| rows.features.chunks_exact(width).any(|r| r == *row)));
+                assert!(
+                    seen.iter()
+                        .all(|row| rows.features.chunks_exact(width).any(|r| r == *row))
+                );
                 seen.dedup();
                 assert_eq!(seen.len(), some.of_pixel);
             }

@@ -28,7 +28,11 @@ pub const DESCRIPTION: [&str; 5] = [
 /// # Domain
 /// 0 ≤ wmin ≤ w ≤ wmax ≤ 1; the result is in [0, 1].
 pub fn relative_depth(w: f64, wmin: f64, wmax: f64) -> f64 {
-    if wmax > wmin { libm::expm1(w - wmin) / libm::expm1(wmax - wmin) } else { 0.0 }
+    if wmax > wmin {
+        libm::expm1(w - wmin) / libm::expm1(wmax - wmin)
+    } else {
+        0.0
+    }
 }
 
 /// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w − 1, taken in f64
@@ -52,7 +56,9 @@ pub fn extract(pixel: Pixel<'_>, planes: CameraPlanes, out: &mut [f32]) -> Resul
     for &v in pixel.view_z {
         windows.push(planes.window(ViewZ(v.into()))?);
     }
-    let (wmin, wmax) = windows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), w| (lo.min(w.0), hi.max(w.0)));
+    let (wmin, wmax) = windows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), w| {
+        (lo.min(w.0), hi.max(w.0))
+    });
     let depths: Vec<_> = windows.iter().map(|w| w.to_moment()).collect();
     let absorbances: Vec<_> = pixel.alpha.iter().map(|&a| absorbance(a)).collect();
     let b: [f64; 5] = power_moments(&depths, &absorbances);
@@ -83,10 +89,20 @@ pub fn describe_lanes(n: usize, depth: &mut [Lanes], absorbance: &[Lanes]) -> [f
 }
 
 #[inline(always)]
-fn describe<S: Simd>(simd: S, [wmin, wmax]: [f32; 2], depth: &mut [Lanes], absorbance: &[Lanes], sums: &mut [Lanes; 5]) {
+fn describe<S: Simd>(
+    simd: S,
+    [wmin, wmax]: [f32; 2],
+    depth: &mut [Lanes],
+    absorbance: &[Lanes],
+    sums: &mut [Lanes; 5],
+) {
     let splat = |x: f32| f32x16::splat(simd, x);
     let mut b = [splat(0.0); 5];
-    let scale = if wmax > wmin { (1.0 / libm::expm1(f64::from(wmax) - f64::from(wmin))) as f32 } else { 0.0 };
+    let scale = if wmax > wmin {
+        (1.0 / libm::expm1(f64::from(wmax) - f64::from(wmin))) as f32
+    } else {
+        0.0
+    };
     for (w, a) in depth.iter_mut().zip(absorbance) {
         let (depth, mut term) = (w.load(simd), a.load(simd));
         let z = depth * splat(2.0) - splat(1.0);
@@ -115,7 +131,16 @@ mod tests {
 
     fn features(view_z: &[f32], alpha: &[f32]) -> Vec<f32> {
         let mut out = vec![f32::NAN; view_z.len() * 7];
-        extract(Pixel { view_z, alpha, color: None }, CameraPlanes::new(0.5, 10.0).unwrap(), &mut out).unwrap();
+        extract(
+            Pixel {
+                view_z,
+                alpha,
+                color: None,
+            },
+            CameraPlanes::new(0.5, 10.0).unwrap(),
+            &mut out,
+        )
+        .unwrap();
         out
     }
 
@@ -125,7 +150,22 @@ mod tests {
         let a = std::f32::consts::LN_2;
         assert_eq!(
             features(&[10.0, 0.5], &[0.5, 0.5]),
-            [1.0, 2.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0, 2.0 * a, 0.0, 2.0 * a, 0.0, 2.0 * a]
+            [
+                1.0,
+                2.0,
+                2.0 * a,
+                0.0,
+                2.0 * a,
+                0.0,
+                2.0 * a,
+                0.0,
+                2.0,
+                2.0 * a,
+                0.0,
+                2.0 * a,
+                0.0,
+                2.0 * a
+            ]
         );
     }
 
@@ -140,8 +180,19 @@ mod tests {
     #[test]
     fn outside_the_planes_is_an_error() {
         let planes = CameraPlanes::new(0.5, 10.0).unwrap();
-        let pixel = Pixel { view_z: &[11.0], alpha: &[0.5], color: None };
-        assert_eq!(extract(pixel, planes, &mut [0.0; 7]), Err(DepthError::OutsidePlanes { view_z: 11.0, near: 0.5, far: 10.0 }));
+        let pixel = Pixel {
+            view_z: &[11.0],
+            alpha: &[0.5],
+            color: None,
+        };
+        assert_eq!(
+            extract(pixel, planes, &mut [0.0; 7]),
+            Err(DepthError::OutsidePlanes {
+                view_z: 11.0,
+                near: 0.5,
+                far: 10.0
+            })
+        );
     }
 
     proptest! {

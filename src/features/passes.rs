@@ -4,8 +4,8 @@
 //! a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not
 //! on its company, and to leave out the network where its answer is not used changes no bit of the rest.
 
-use super::recentred::{LEAST_HALF_RANGE, PixelSums, Seen, is_thin, place_in_thin};
-use super::visible::{FAINT, LEAST_WEIGHT, first_hidden_depth};
+use super::recentred::{MIN_HALF_RANGE, PixelSums, Seen, is_thin, place_in_thin};
+use super::visible::{FAINT, MIN_WEIGHT, first_hidden_depth};
 use super::wide::{Fragments, moment_depth};
 use super::{Extractor, Kind, MomentFrame, Storage};
 use crate::numeric::lanes::{LANES, Lanes, exp};
@@ -55,8 +55,17 @@ pub enum Class {
 
 impl Class {
     /// Every class.
-    pub const ALL: [Self; 9] =
-        [Self::Nearest, Self::Alone, Self::Farthest, Self::Three, Self::Four, Self::Known, Self::Faint, Self::Hidden, Self::Network];
+    pub const ALL: [Self; 9] = [
+        Self::Nearest,
+        Self::Alone,
+        Self::Farthest,
+        Self::Three,
+        Self::Four,
+        Self::Known,
+        Self::Faint,
+        Self::Hidden,
+        Self::Network,
+    ];
 
     /// Its name in tables and files.
     pub fn name(self) -> &'static str {
@@ -124,14 +133,28 @@ struct Queue<const K: usize> {
 impl<const K: usize> Queue<K> {
     fn new() -> Self {
         let (fragment, pixel) = ([0; VECTORS * LANES], [0; VECTORS * LANES]);
-        Self { fixed: [[Lanes([1.0; LANES]); VECTORS]; 7], b: [[Lanes::ZERO; VECTORS]; K], fragment, pixel, len: 0 }
+        Self {
+            fixed: [[Lanes([1.0; LANES]); VECTORS]; 7],
+            b: [[Lanes::ZERO; VECTORS]; K],
+            fragment,
+            pixel,
+            len: 0,
+        }
     }
 
     #[inline(always)]
     fn push(&mut self, view_z: f32, z: f32, absorbance: f32, of: &Summed<K>, fragment: u32, pixel: usize) {
         let (vector, lane) = (self.len / LANES, self.len % LANES);
-        let place = if of.thin { place_in_thin(view_z, of.sums.nearest, of.sums.farthest) } else { 2.0 };
-        for (lanes, value) in self.fixed.iter_mut().zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h, place]) {
+        let place = if of.thin {
+            place_in_thin(view_z, of.sums.nearest, of.sums.farthest)
+        } else {
+            2.0
+        };
+        for (lanes, value) in
+            self.fixed
+                .iter_mut()
+                .zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h, place])
+        {
             lanes[vector].0[lane] = value;
         }
         for (lanes, value) in self.b.iter_mut().zip(of.sums.b) {
@@ -149,7 +172,16 @@ impl<const K: usize> Queue<K> {
     #[inline(always)]
     fn load<S: Simd>(&self, simd: S, v: usize) -> Fragments<S, K> {
         let [z, absorbance, b0, count, c, h, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
-        Fragments { z, absorbance, b0, b: std::array::from_fn(|k| self.b[k][v].load(simd)), count, c, h, place }
+        Fragments {
+            z,
+            absorbance,
+            b0,
+            b: std::array::from_fn(|k| self.b[k][v].load(simd)),
+            count,
+            c,
+            h,
+            place,
+        }
     }
 
     /// Empties it: first fragments and number of each vector of what stood there.
@@ -249,7 +281,10 @@ impl<const K: usize> Workspace<K> {
                 depth.store(fragments.closed_form(simd, &fragments.describe(simd)));
             });
             for (lane, &depth) in depth.0[..len].iter().enumerate() {
-                let (fragment, pixel) = (self.short.fragment[at + lane] as usize, self.short.pixel[at + lane] as usize);
+                let (fragment, pixel) = (
+                    self.short.fragment[at + lane] as usize,
+                    self.short.pixel[at + lane] as usize,
+                );
                 let of = task.summed[pixel];
                 task.out[fragment] = depth;
                 task.class[fragment] = if of.sums.count == 3 { Class::Three } else { Class::Four };
@@ -262,18 +297,47 @@ impl<const K: usize> Workspace<K> {
 
     /// The network, unless the fragment is hidden; only deep ones may be.
     #[inline(always)]
-    fn ask(&mut self, task: &mut Task<'_, K>, network: &mut impl Network, of: &Summed<K>, fragment: usize, pixel: usize, deep: bool) {
+    fn ask(
+        &mut self,
+        task: &mut Task<'_, K>,
+        network: &mut impl Network,
+        of: &Summed<K>,
+        fragment: usize,
+        pixel: usize,
+        deep: bool,
+    ) {
         // No branch, which nobody could predict.
         let queue = &mut self.asked[usize::from(deep)];
-        queue.push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], of, fragment as u32, pixel);
+        queue.push(
+            task.view_z[fragment],
+            task.z[fragment],
+            task.absorbance[fragment],
+            of,
+            fragment as u32,
+            pixel,
+        );
         if queue.is_full() {
             self.flush(deep, task, network);
         }
     }
 
     /// The network, whose answer is not used.
-    fn run_for_nothing(&mut self, task: &mut Task<'_, K>, network: &mut impl Network, of: &Summed<K>, fragment: usize, pixel: usize) {
-        self.asked[0].push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], of, DROPPED, pixel);
+    fn run_for_nothing(
+        &mut self,
+        task: &mut Task<'_, K>,
+        network: &mut impl Network,
+        of: &Summed<K>,
+        fragment: usize,
+        pixel: usize,
+    ) {
+        self.asked[0].push(
+            task.view_z[fragment],
+            task.z[fragment],
+            task.absorbance[fragment],
+            of,
+            DROPPED,
+            pixel,
+        );
         if self.asked[0].is_full() {
             self.flush(false, task, network);
         }
@@ -291,7 +355,13 @@ impl<const K: usize> Workspace<K> {
             if hidden == 0 {
                 self.who.extend_from_slice(fragments);
             } else {
-                self.who.extend(fragments.iter().enumerate().filter(|(lane, _)| hidden >> lane & 1 == 0).map(|(_, f)| f));
+                self.who.extend(
+                    fragments
+                        .iter()
+                        .enumerate()
+                        .filter(|(lane, _)| hidden >> lane & 1 == 0)
+                        .map(|(_, f)| f),
+                );
             }
             while hidden != 0 {
                 let lane = hidden.trailing_zeros() as usize;
@@ -331,13 +401,25 @@ impl<const K: usize> Workspace<K> {
 
     /// Pass 2.
     fn pass_2(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
-        let Switches { ends, faint, hidden, .. } = self.switches;
+        let Switches {
+            ends, faint, hidden, ..
+        } = self.switches;
         task.class.fill(Class::Network);
         for at in 0..task.summed.len() {
             let of = task.summed[at];
-            let PixelSums { b0, count, nearest, farthest, .. } = of.sums;
+            let PixelSums {
+                b0,
+                count,
+                nearest,
+                farthest,
+                ..
+            } = of.sums;
             let faint = faint && b0 <= FAINT;
-            let deep_from = if hidden { first_hidden_depth(b0, of.sums.b[0], of.sums.b[1]) } else { f32::INFINITY };
+            let deep_from = if hidden {
+                first_hidden_depth(b0, of.sums.b[0], of.sums.b[1])
+            } else {
+                f32::INFINITY
+            };
             for fragment in of.first as usize..(of.first + count) as usize {
                 let (view_z, absorbance) = (task.view_z[fragment], task.absorbance[fragment]);
                 let others = (b0 - absorbance).max(0.0);
@@ -350,7 +432,8 @@ impl<const K: usize> Workspace<K> {
                         self.run_for_nothing(task, network, &of, fragment, at);
                     }
                 } else if count <= 4 {
-                    self.short.push(view_z, task.z[fragment], absorbance, &of, fragment as u32, at);
+                    self.short
+                        .push(view_z, task.z[fragment], absorbance, &of, fragment as u32, at);
                     if self.short.is_full() {
                         self.flush_short(task, network);
                     }
@@ -373,12 +456,23 @@ impl<const K: usize> Workspace<K> {
         for &pixel in &hiding {
             let of = task.summed[pixel as usize];
             let own = of.first as usize..(of.first + of.sums.count) as usize;
-            let weight: f32 = task.alpha[own.clone()].iter().zip(&task.out[own.clone()]).map(|(&a, &t)| a * t).sum();
-            if weight < LEAST_WEIGHT {
+            let weight: f32 = task.alpha[own.clone()]
+                .iter()
+                .zip(&task.out[own.clone()])
+                .map(|(&a, &t)| a * t)
+                .sum();
+            if weight < MIN_WEIGHT {
                 for fragment in own {
                     if task.class[fragment] == Class::Hidden {
                         task.class[fragment] = Class::Network;
-                        self.asked[0].push(task.view_z[fragment], task.z[fragment], task.absorbance[fragment], &of, fragment as u32, pixel as usize);
+                        self.asked[0].push(
+                            task.view_z[fragment],
+                            task.z[fragment],
+                            task.absorbance[fragment],
+                            &of,
+                            fragment as u32,
+                            pixel as usize,
+                        );
                         if self.asked[0].is_full() {
                             self.flush(false, task, network);
                         }
@@ -399,7 +493,10 @@ fn transmittances<S: Simd>(simd: S, out: &mut [f32], class: &[Class]) {
         let n = out.len();
         let mut lanes = Lanes::ZERO;
         lanes.0[..n].copy_from_slice(out);
-        let answered = class.iter().enumerate().fold(0, |mask, (lane, &c)| mask | u64::from(c == Class::Network) << lane);
+        let answered = class
+            .iter()
+            .enumerate()
+            .fold(0, |mask, (lane, &c)| mask | u64::from(c == Class::Network) << lane);
         let (value, answered) = (lanes.load(simd), mask32x16::from_bitmask(simd, answered));
         lanes.store(answered.select(value, exp(simd, -value)));
         out.copy_from_slice(&lanes.0[..n]);
@@ -428,7 +525,11 @@ impl<const K: usize> Task<'_, K> {
             let mut sums = PixelSums::<f32, K>::default();
             let mut ends = [0.0; 2];
             let first = own.start as u32;
-            for ((&view_z, &z), &absorbance) in self.view_z[own.clone()].iter().zip(&self.z[own.clone()]).zip(&self.absorbance[own]) {
+            for ((&view_z, &z), &absorbance) in self.view_z[own.clone()]
+                .iter()
+                .zip(&self.z[own.clone()])
+                .zip(&self.absorbance[own])
+            {
                 sums.add(Seen { view_z, z, absorbance });
                 if sums.nearest == view_z {
                     ends[0] = z;
@@ -437,9 +538,15 @@ impl<const K: usize> Task<'_, K> {
                     ends[1] = z;
                 }
             }
-            let h = (0.5 * (ends[1] - ends[0])).max(LEAST_HALF_RANGE as f32);
+            let h = (0.5 * (ends[1] - ends[0])).max(MIN_HALF_RANGE as f32);
             let thin = is_thin(sums.nearest, sums.farthest);
-            self.summed.push(Summed { sums, c: 0.5 * (ends[0] + ends[1]), h, thin, first });
+            self.summed.push(Summed {
+                sums,
+                c: 0.5 * (ends[0] + ends[1]),
+                h,
+                thin,
+                first,
+            });
         }
     }
 }
@@ -447,7 +554,10 @@ impl<const K: usize> Task<'_, K> {
 /// Moment depths and absorbances.
 #[inline(always)]
 fn see<S: Simd>(simd: S, warp: &LogWarp, view_z: &[f32], alpha: &[f32], z: &mut [f32], absorbance: &mut [f32]) {
-    let chunks = view_z.chunks(LANES).zip(alpha.chunks(LANES)).zip(z.chunks_mut(LANES).zip(absorbance.chunks_mut(LANES)));
+    let chunks = view_z
+        .chunks(LANES)
+        .zip(alpha.chunks(LANES))
+        .zip(z.chunks_mut(LANES).zip(absorbance.chunks_mut(LANES)));
     for ((view_z, alpha), (z, absorbance)) in chunks {
         let n = z.len();
         let mut lanes = Lanes([1.0; LANES]);
@@ -465,7 +575,9 @@ fn see<S: Simd>(simd: S, warp: &LogWarp, view_z: &[f32], alpha: &[f32], z: &mut 
 fn see_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], z: &mut [f32]) {
     for of in offsets.windows(2) {
         let own = (of[0] - offsets[0]) as usize..(of[1] - offsets[0]) as usize;
-        let (nearest, farthest) = view_z[own.clone()].iter().fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+        let (nearest, farthest) = view_z[own.clone()]
+            .iter()
+            .fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
         let range = [nearest, farthest].map(|v| f32x16::splat(simd, v));
         for (view_z, z) in view_z[own.clone()].chunks(LANES).zip(z[own].chunks_mut(LANES)) {
             let n = z.len();
@@ -479,7 +591,13 @@ fn see_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], z: &mut [f32]
 
 /// Puts the features of those of sixteen fragments that are not hidden into the columns, and says which are; none is where one does not look.
 #[inline(always)]
-fn describe<S: Simd, const K: usize>(simd: S, fragments: &Fragments<S, K>, look: bool, columns: &mut [Column], row: usize) -> u64 {
+fn describe<S: Simd, const K: usize>(
+    simd: S,
+    fragments: &Fragments<S, K>,
+    look: bool,
+    columns: &mut [Column],
+    row: usize,
+) -> u64 {
     let described = fragments.describe(simd);
     let (first, measure) = fragments.features(simd, &described);
     let values = first.into_iter().chain(measure);
@@ -512,7 +630,12 @@ impl Extractor {
     /// Both passes of this feature set, where they are made for many pixels: recentred ones with moments summed in f32.
     pub fn passes(&self) -> Option<Passes> {
         match (self.kind, self.storage) {
-            (Kind::Recentred(warp), Storage::F32) => Some(Passes { moments: self.set.moments(), width: self.set.width(), warp, frame: self.frame }),
+            (Kind::Recentred(warp), Storage::F32) => Some(Passes {
+                moments: self.set.moments(),
+                width: self.set.width(),
+                warp,
+                frame: self.frame,
+            }),
             _ => None,
         }
     }
@@ -558,7 +681,11 @@ impl Passes {
         const TASK: u64 = 4096;
         let offsets = list.offsets();
         let fragments = (offsets[range.end] - offsets[range.start]) as usize;
-        assert_eq!((out.len(), class.len()), (fragments, fragments), "one answer a fragment");
+        assert_eq!(
+            (out.len(), class.len()),
+            (fragments, fragments),
+            "one answer a fragment"
+        );
         let start = std::time::Instant::now();
         let (mut z, mut absorbance) = (vec![0.0; fragments], vec![0.0; fragments]);
         let mut tasks: Vec<Task<'_, K>> = Vec::new();
@@ -567,7 +694,9 @@ impl Passes {
         while first < range.end {
             // Empty pixels take a little time too.
             let most = range.end.min(first + 4 * TASK as usize);
-            let end = offsets[..=most].partition_point(|&o| o < offsets[first] + TASK).clamp(first + 1, most);
+            let end = offsets[..=most]
+                .partition_point(|&o| o < offsets[first] + TASK)
+                .clamp(first + 1, most);
             let own = offsets[first] as usize..offsets[end] as usize;
             let (z, z_rest) = rest.0.split_at_mut(own.len());
             let (absorbance, absorbance_rest) = rest.1.split_at_mut(own.len());
@@ -575,10 +704,21 @@ impl Passes {
             let (class, class_rest) = rest.3.split_at_mut(own.len());
             rest = (z_rest, absorbance_rest, out_rest, class_rest);
             let (view_z, alpha) = (&list.view_z()[own.clone()], &list.alpha()[own]);
-            tasks.push(Task { pixels: first..end, view_z, alpha, summed: Vec::new(), z, absorbance, out, class });
+            tasks.push(Task {
+                pixels: first..end,
+                view_z,
+                alpha,
+                summed: Vec::new(),
+                z,
+                absorbance,
+                out,
+                class,
+            });
             first = end;
         }
-        tasks.par_iter_mut().for_each(|task| task.pass_1(list, &self.warp, self.frame));
+        tasks
+            .par_iter_mut()
+            .for_each(|task| task.pass_1(list, &self.warp, self.frame));
         let seconds_pass_1 = start.elapsed().as_secs_f64();
         let start = std::time::Instant::now();
         let mut tally: Tally = tasks
@@ -588,7 +728,10 @@ impl Passes {
                 |(work, network), task| {
                     work.rows = 0;
                     work.pass_2(task, network);
-                    let mut tally = Tally { rows: work.rows, ..Tally::default() };
+                    let mut tally = Tally {
+                        rows: work.rows,
+                        ..Tally::default()
+                    };
                     task.class.iter().for_each(|&c| tally.classes[c as usize] += 1);
                     tally
                 },
@@ -653,16 +796,37 @@ pub(crate) mod tests {
         }
     }
 
-    fn run(extractor: &Extractor, list: &FragmentList, switches: Switches) -> (Vec<f32>, Vec<Class>, Tally, Vec<Vec<f32>>) {
+    fn run(
+        extractor: &Extractor,
+        list: &FragmentList,
+        switches: Switches,
+    ) -> (Vec<f32>, Vec<Class>, Tally, Vec<Vec<f32>>) {
         let rows = std::sync::Mutex::new(Vec::new());
         let (mut out, mut class) = (vec![f32::NAN; list.len()], vec![Class::Network; list.len()]);
         let passes = extractor.passes().unwrap();
-        let tally = passes.run(list, 0..list.pixels(), switches, || Listener(&rows), &mut out, &mut class);
+        let tally = passes.run(
+            list,
+            0..list.pixels(),
+            switches,
+            || Listener(&rows),
+            &mut out,
+            &mut class,
+        );
         (out, class, tally, rows.into_inner().unwrap())
     }
 
-    const EXACT: Switches = Switches { ends: true, short: true, faint: false, hidden: false };
-    const VISIBLE: Switches = Switches { ends: true, short: true, faint: true, hidden: true };
+    const EXACT: Switches = Switches {
+        ends: true,
+        short: true,
+        faint: false,
+        hidden: false,
+    };
+    const VISIBLE: Switches = Switches {
+        ends: true,
+        short: true,
+        faint: true,
+        hidden: true,
+    };
 
     /// Against [`Extractor::pixel`]: the same fragments asked; what is known to 1e-5, in pixels of four that are not thin to 1e-3, and the features of pixels that are
     /// not thin to f32 rounding. Controls: the values one fragment on.
@@ -673,7 +837,10 @@ pub(crate) mod tests {
             let extractor = Extractor::for_list(set, &list, None, None).unwrap();
             let (out, class, tally, rows) = run(&extractor, &list, EXACT);
             let asked: Vec<usize> = (0..list.len()).filter(|&i| class[i] == Class::Network).collect();
-            assert_eq!((tally.rows as usize, rows.len(), tally.of(Class::Network) as usize), (asked.len(), asked.len(), asked.len()));
+            assert_eq!(
+                (tally.rows as usize, rows.len(), tally.of(Class::Network) as usize),
+                (asked.len(), asked.len(), asked.len())
+            );
             assert_eq!(tally.fragments() as usize, list.len());
             let width = set.width();
             let (mut controls, mut compared) = (0, 0);
@@ -682,7 +849,11 @@ pub(crate) mod tests {
                 let range = list.range(p);
                 let mut whole = vec![0.0; range.len() * (width + 1)];
                 extractor.pixel(list.pixel(p), &mut whole).unwrap();
-                let (near, far) = list.pixel(p).view_z.iter().fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
+                let (near, far) = list
+                    .pixel(p)
+                    .view_z
+                    .iter()
+                    .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
                 let thin = far < 1.6 * near;
                 for (i, row) in range.clone().zip(whole.chunks_exact(width + 1)) {
                     assert_eq!(row[width].is_nan(), class[i] == Class::Network);
@@ -694,20 +865,30 @@ pub(crate) mod tests {
                             Class::Four => 1e-3,
                             _ => 1e-5,
                         };
-                        assert!((out[i] - row[width]).abs() <= bar, "{:?}: {} for {}", class[i], out[i], row[width]);
+                        assert!(
+                            (out[i] - row[width]).abs() <= bar,
+                            "{:?}: {} for {}",
+                            class[i],
+                            out[i],
+                            row[width]
+                        );
                         controls += usize::from((out[i] - known_before).abs() > 1e-5);
                         known_before = row[width];
                     } else {
                         if thin {
                             continue;
                         }
-                        let found =
-                            rows.iter().find(|r| (r[0] - row[0]).abs() < 1e-5 && (r[2] - row[2]).abs() < 1e-5 && (r[3] - row[3]).abs() < 1e-3);
+                        let found = rows.iter().find(|r| {
+                            (r[0] - row[0]).abs() < 1e-5 && (r[2] - row[2]).abs() < 1e-5 && (r[3] - row[3]).abs() < 1e-3
+                        });
                         let found = found.unwrap_or_else(|| panic!("no row like {row:?}"));
                         for (k, (f, e)) in found.iter().zip(&row[..7]).enumerate() {
                             // The square root of a small spread makes much of rounding; its square does not.
                             let (f, e) = if k == 6 { (f * f, e * e) } else { (*f, *e) };
-                            assert!((f - e).abs() <= if k < 5 { 1e-3 } else { 2e-2 }, "{set:?}, column {k}: {found:?} for {row:?}");
+                            assert!(
+                                (f - e).abs() <= if k < 5 { 1e-3 } else { 2e-2 },
+                                "{set:?}, column {k}: {found:?} for {row:?}"
+                            );
                         }
                         compared += 1;
                     }
@@ -724,10 +905,17 @@ pub(crate) mod tests {
         let extractor = Extractor::for_list(FeatureSet::Recentred, &list, None, None).unwrap();
         let (all, class, tally, _) = run(&extractor, &list, EXACT);
         let (none, class_none, tally_none, _) = run(&extractor, &list, Switches::default());
-        assert_eq!(all.iter().map(|t| t.to_bits()).collect::<Vec<_>>(), none.iter().map(|t| t.to_bits()).collect::<Vec<_>>());
+        assert_eq!(
+            all.iter().map(|t| t.to_bits()).collect::<Vec<_>>(),
+            none.iter().map(|t| t.to_bits()).collect::<Vec<_>>()
+        );
         assert_eq!(class, class_none);
         assert!(tally_none.rows as usize == list.len() && tally.rows < tally_none.rows);
-        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| run(&extractor, &list, EXACT).0);
+        let one = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .build()
+            .unwrap()
+            .install(|| run(&extractor, &list, EXACT).0);
         assert_eq!(all, one);
         let passes = extractor.passes().unwrap();
         for range in [0..1, 17..18, 100..333, 0..list.pixels()] {
@@ -751,7 +939,10 @@ pub(crate) mod tests {
             let (mut worst, mut hidden, mut rest) = (0.0f64, 0, 0.0f64);
             for p in 0..list.pixels() {
                 let weight = |class_is: &dyn Fn(Class) -> bool| -> f64 {
-                    list.range(p).filter(|&i| class_is(class[i])).map(|i| f64::from(list.alpha()[i]) * truth[i]).sum()
+                    list.range(p)
+                        .filter(|&i| class_is(class[i]))
+                        .map(|i| f64::from(list.alpha()[i]) * truth[i])
+                        .sum()
                 };
                 worst = worst.max(weight(&|c| c == Class::Hidden));
                 rest = rest.max(weight(&|c| c == Class::Network));
@@ -761,7 +952,10 @@ pub(crate) mod tests {
                     assert!(b0 <= f64::from(visible::FAINT) * (1.0 + 1e-5));
                 }
             }
-            assert!(worst <= 1.0 / 1024.0 && hidden > 1000 && rest > 0.1, "{worst} of {hidden}; {rest}");
+            assert!(
+                worst <= 1.0 / 1024.0 && hidden > 1000 && rest > 0.1,
+                "{worst} of {hidden}; {rest}"
+            );
             assert!(tally.of(Class::Faint) > 1000);
         }
     }

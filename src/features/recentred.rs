@@ -17,8 +17,19 @@ pub const ABSORBANCE_COLUMN: usize = 2;
 const FIXED: usize = 3;
 
 /// Names of the columns with 8 moments; with fewer, the first ones.
-const COLUMNS: [&str; 11] =
-    ["x", "count", "ln_b0", "mean", "spread", "inner_mean", "inner_spread", "inner2_mean", "inner2_spread", "inner3_mean", "inner3_spread"];
+const COLUMNS: [&str; 11] = [
+    "x",
+    "count",
+    "ln_b0",
+    "mean",
+    "spread",
+    "inner_mean",
+    "inner_spread",
+    "inner2_mean",
+    "inner2_spread",
+    "inner3_mean",
+    "inner3_spread",
+];
 
 /// Names of the columns with K moments.
 pub fn columns(moments: usize) -> &'static [&'static str] {
@@ -56,7 +67,11 @@ pub fn moment_depth<R: Real>(v: f32, [v0, v1]: [f32; 2]) -> R {
     if v1 > v0 {
         let [v, v0, v1] = [v, v0, v1].map(R::from_f32);
         let two = R::from_f64(2.0);
-        clamp(two * log_ratio(v, v0) / log_ratio(v1, v0).max(R::from_f64(1e-30)) - R::ONE, -R::ONE, R::ONE)
+        clamp(
+            two * log_ratio(v, v0) / log_ratio(v1, v0).max(R::from_f64(1e-30)) - R::ONE,
+            -R::ONE,
+            R::ONE,
+        )
     } else {
         R::ZERO
     }
@@ -96,7 +111,13 @@ pub struct PixelSums<R, const K: usize> {
 
 impl<R: Real, const K: usize> Default for PixelSums<R, K> {
     fn default() -> Self {
-        Self { b0: R::ZERO, b: [R::ZERO; K], count: 0, nearest: f32::INFINITY, farthest: f32::NEG_INFINITY }
+        Self {
+            b0: R::ZERO,
+            b: [R::ZERO; K],
+            count: 0,
+            nearest: f32::INFINITY,
+            farthest: f32::NEG_INFINITY,
+        }
     }
 }
 
@@ -134,7 +155,10 @@ pub struct Rounding<R> {
 impl<R: Real> Rounding<R> {
     /// Of sums in the arithmetic R itself.
     pub fn of_arithmetic() -> Self {
-        Self { unit: R::EPSILON, every_addition: true }
+        Self {
+            unit: R::EPSILON,
+            every_addition: true,
+        }
     }
 
     /// The usual error of a moment of n fragments, as a share of [`Self::unit`].
@@ -142,7 +166,11 @@ impl<R: Real> Rounding<R> {
     /// # Accuracy
     /// Measured over random pixels of 3 to 256 fragments: 0.05 to 0.1 √n for the fourth moment, 0.1 to 0.2 √n for the first.
     fn usual(&self, n: R) -> R {
-        if self.every_addition { R::from_f64(USUAL_NOISE) * n.sqrt() } else { R::from_f64(0.3) }
+        if self.every_addition {
+            R::from_f64(USUAL_NOISE) * n.sqrt()
+        } else {
+            R::from_f64(0.3)
+        }
     }
 }
 
@@ -156,10 +184,10 @@ pub enum Known<R, const K: usize> {
 }
 
 /// Least half-range of a pixel in moment depth; f32 hardly tells nearer depths apart.
-pub const LEAST_HALF_RANGE: f64 = 1e-8;
+pub const MIN_HALF_RANGE: f64 = 1e-8;
 
 /// Greatest absorbance of a pixel that is computed with; more can only come of numbers that are none.
-pub const MOST_ABSORBANCE: f64 = 1e30;
+pub const MAX_ABSORBANCE: f64 = 1e30;
 
 /// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what the expansion leaves out is 1e-5 of the range.
 pub const THIN: f64 = 0.01;
@@ -189,7 +217,7 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
 
     /// [`Self::look`] at sums that storage has rounded more than the arithmetic would.
     pub fn look_at_stored(&self, seen: Seen<R>, ends: [R; 2], rounding: Rounding<R>) -> Known<R, K> {
-        let others = clamp(self.b0 - seen.absorbance, R::ZERO, R::from_f64(MOST_ABSORBANCE));
+        let others = clamp(self.b0 - seen.absorbance, R::ZERO, R::from_f64(MAX_ABSORBANCE));
         if seen.view_z == self.nearest || others <= R::from_f64(1e-6) * self.b0 {
             return Known::Transmittance(R::ONE);
         }
@@ -197,7 +225,10 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
             return Known::Transmittance(transmittance(others));
         }
         let half = R::from_f64(0.5);
-        let (c, h) = (half * (ends[0] + ends[1]), (half * (ends[1] - ends[0])).max(R::from_f64(LEAST_HALF_RANGE)));
+        let (c, h) = (
+            half * (ends[0] + ends[1]),
+            (half * (ends[1] - ends[0])).max(R::from_f64(MIN_HALF_RANGE)),
+        );
         let m = self.recentred(seen, others, c, h);
         let (e1, reach) = self.rounding(rounding.unit, others, c, h);
         let n = R::from_f64(f64::from(self.count));
@@ -209,7 +240,9 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         }
         let x = self.place(seen, c, h);
         if self.count == 4 && K >= 3 {
-            return Known::Transmittance(transmittance(others * share_of_four(x, [measure[0], measure[1], measure[2]], doubt)));
+            return Known::Transmittance(transmittance(
+                others * share_of_four(x, [measure[0], measure[1], measure[2]], doubt),
+            ));
         }
         // log2(n)/3 − 1
         let count = n.ln() * R::from_f64(std::f64::consts::LOG2_E / 3.0) - R::ONE;
@@ -219,7 +252,11 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
     /// Place of a fragment in its pixel's range, in [−1, 1]. In thin pixels that of its view depth, of which more is known than of its moment depth.
     fn place(&self, seen: Seen<R>, c: R, h: R) -> R {
         let [v, nearest, farthest] = [seen.view_z, self.nearest, self.farthest].map(R::from_f32);
-        if is_thin(nearest, farthest) { place_in_thin(v, nearest, farthest) } else { clamp((seen.z - c) / h, -R::ONE, R::ONE) }
+        if is_thin(nearest, farthest) {
+            place_in_thin(v, nearest, farthest)
+        } else {
+            clamp((seen.z - c) / h, -R::ONE, R::ONE)
+        }
     }
 
     /// m_1..m_K of the other fragments, in [−1, 1] whatever rounding has done.
@@ -239,7 +276,11 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
         let h2 = h1 * h1;
         let powers = [h1, h2, h2 * h1, h2 * h2];
         for (k, m) in m.iter_mut().enumerate() {
-            let scaled = if k < 4 { *m * powers[k] } else { *m * powers[3] * powers[k - 4] };
+            let scaled = if k < 4 {
+                *m * powers[k]
+            } else {
+                *m * powers[3] * powers[k - 4]
+            };
             *m = clamp(scaled, -R::ONE, R::ONE);
         }
         m
@@ -259,17 +300,25 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
 /// same and is well conditioned where the near end is not. Rounding leaves u in doubt; so much to either side of it the one goes over to the other, and as mean, spread and inner mean
 /// fade to what is expected, so does the share: it is continuous in the moments.
 fn share_of_four<R: Real>(x: R, [mean, spread, u]: [R; 3], doubt: R) -> R {
-    let (half, least) = (R::from_f64(0.5), R::from_f64(LEAST_MASS));
+    let (half, least) = (R::from_f64(0.5), R::from_f64(MIN_MASS));
     // 1 − m_2
     let inner = (R::ONE - spread) * (R::ONE - mean * mean);
-    let near = clamp(half * (R::ONE - mean - inner / (R::ONE + u).max(least)), R::ZERO, R::ONE);
-    let far = clamp(half * (R::ONE + mean - inner / (R::ONE - u).max(least)), R::ZERO, R::ONE);
+    let near = clamp(
+        half * (R::ONE - mean - inner / (R::ONE + u).max(least)),
+        R::ZERO,
+        R::ONE,
+    );
+    let far = clamp(
+        half * (R::ONE + mean - inner / (R::ONE - u).max(least)),
+        R::ZERO,
+        R::ONE,
+    );
     let behind = clamp(half + half * (x - u) / doubt, R::ZERO, R::ONE);
     clamp(near + behind * (R::ONE - far - near), R::ZERO, R::ONE)
 }
 
 /// Least mass of (1 − x²) μ that is divided by.
-const LEAST_MASS: f64 = 1e-6;
+const MIN_MASS: f64 = 1e-6;
 
 /// Usual error of the first moment of one fragment, as a share of the rounding of a stored moment.
 pub const USUAL_NOISE: f64 = 0.12;
@@ -350,7 +399,7 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
     let per_n = R::ONE / n;
     let mut q = [R::ONE; 9];
     q[1..=K].copy_from_slice(m);
-    let least = c(LEAST_MASS);
+    let least = c(MIN_MASS);
     let mut out = [R::ZERO; K];
     let further = reach * c(NOISE_GROWTH);
     let noise1 = e1 * usual;
@@ -377,14 +426,20 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
         let mut spread = clamp((q[2] * per_mass - mean * mean) / most, R::ZERO, R::ONE);
         match level {
             0 => {
-                spread = shrunk(spread, USUAL_SPREAD.of(per_n), noise2 / most, SPREAD_DEVIATION.of(per_n));
+                spread = shrunk(
+                    spread,
+                    USUAL_SPREAD.of(per_n),
+                    noise2 / most,
+                    SPREAD_DEVIATION.of(per_n),
+                );
                 (mean0, spread0) = (mean, spread);
             }
             1 => {
                 let deviation = INNER_SPREAD_DEVIATION.of(per_n) * (spread0 + c(0.02));
                 let offset = mean * (R::ONE + spread0) - mean0 * (R::ONE - spread0);
                 let square = spread0 * spread0;
-                let usual = USUAL_INNER_SPREAD.of(per_n) + c(INNER_SPREAD_OF_SPREAD) * square * square - c(INNER_SPREAD_OF_OFFSET) * offset * offset;
+                let usual = USUAL_INNER_SPREAD.of(per_n) + c(INNER_SPREAD_OF_SPREAD) * square * square
+                    - c(INNER_SPREAD_OF_OFFSET) * offset * offset;
                 let expected = clamp(usual * spread0 / (R::ONE + spread0 + spread0), R::ZERO, R::ONE);
                 spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
             }
@@ -442,8 +497,12 @@ mod tests {
             let c = rng.random_range(half - 1.0..1.0 - half);
             let gap = 2.0 * half * least_gap;
             let z = loop {
-                let mut z: Vec<f64> =
-                    [-1.0, 1.0].into_iter().chain((2..n).map(|_| rng.random_range(-1.0..1.0))).map(|x| c + half * x).take(n).collect();
+                let mut z: Vec<f64> = [-1.0, 1.0]
+                    .into_iter()
+                    .chain((2..n).map(|_| rng.random_range(-1.0..1.0)))
+                    .map(|x| c + half * x)
+                    .take(n)
+                    .collect();
                 let mut sorted = z.clone();
                 sorted.sort_by(f64::total_cmp);
                 if sorted.windows(2).all(|w| w[1] - w[0] >= gap) {
@@ -452,7 +511,9 @@ mod tests {
                 }
             };
             // Absorbances from 1e-3 to the clamp.
-            let alpha = (0..n).map(|_| -libm::expm1(-libm::exp(rng.random_range(-6.9..2.4))) as f32).collect();
+            let alpha = (0..n)
+                .map(|_| -libm::expm1(-libm::exp(rng.random_range(-6.9..2.4))) as f32)
+                .collect();
             Self { z, alpha }
         }
 
@@ -460,20 +521,34 @@ mod tests {
         fn keys(&self) -> Vec<f32> {
             let mut sorted = self.z.clone();
             sorted.sort_by(f64::total_cmp);
-            self.z.iter().map(|z| 1.0 + sorted.iter().position(|s| s == z).unwrap() as f32).collect()
+            self.z
+                .iter()
+                .map(|z| 1.0 + sorted.iter().position(|s| s == z).unwrap() as f32)
+                .collect()
         }
 
         fn exact(&self) -> Vec<f64> {
             let keys = self.keys();
             let mut out = vec![0.0; keys.len()];
-            abuffer::transmittance(Pixel { view_z: &keys, alpha: &self.alpha, color: None }, &mut out);
+            abuffer::transmittance(
+                Pixel {
+                    view_z: &keys,
+                    alpha: &self.alpha,
+                    color: None,
+                },
+                &mut out,
+            );
             out
         }
 
         fn look<R: Real, const K: usize>(&self) -> Vec<Known<R, K>> {
             let keys = self.keys();
             let seen: Vec<Seen<R>> = (0..keys.len())
-                .map(|i| Seen { view_z: keys[i], z: R::from_f64(self.z[i]), absorbance: R::from_f64(absorbance(self.alpha[i])) })
+                .map(|i| Seen {
+                    view_z: keys[i],
+                    z: R::from_f64(self.z[i]),
+                    absorbance: R::from_f64(absorbance(self.alpha[i])),
+                })
                 .collect();
             let mut sums = PixelSums::<R, K>::default();
             seen.iter().for_each(|&s| sums.add(s));
@@ -493,10 +568,15 @@ mod tests {
             let case = Case::random(&mut rng, 1 + i % 3, half, 1e-3);
             let exact = case.exact();
             for (known, &t) in case.look::<f64, 4>().into_iter().zip(&exact) {
-                let Known::Transmittance(found) = known else { panic!("{} fragments need no network", exact.len()) };
+                let Known::Transmittance(found) = known else {
+                    panic!("{} fragments need no network", exact.len())
+                };
                 assert!((found - t).abs() <= 1e-9, "{found} for {t}");
             }
-            let reversed = Case { z: case.z.iter().map(|z| -z).collect(), alpha: case.alpha.clone() };
+            let reversed = Case {
+                z: case.z.iter().map(|z| -z).collect(),
+                alpha: case.alpha.clone(),
+            };
             controls += usize::from(reversed.exact().iter().zip(&exact).any(|(a, b)| (a - b).abs() > 1e-9));
         }
         assert!(controls > 15_000);
@@ -509,7 +589,9 @@ mod tests {
         for _ in 0..cases {
             let case = Case::random(&mut rng, 4, half, least_gap);
             for (known, t) in case.look::<R, 4>().into_iter().zip(case.exact()) {
-                let Known::Transmittance(found) = known else { panic!("four fragments need no network") };
+                let Known::Transmittance(found) = known else {
+                    panic!("four fragments need no network")
+                };
                 let e = (found.to_f64() - t).abs();
                 worst = if e.is_nan() { f64::INFINITY } else { worst.max(e) };
                 sum += e * e / (4 * cases) as f64;
@@ -544,8 +626,13 @@ mod tests {
         for _ in 0..4000 {
             let half = 10f64.powf(rng.random_range(-3.0..-0.3));
             let case = Case::random(&mut rng, 4, half, 1e-3);
-            let exact: Vec<Seen<f64>> =
-                (0..4).map(|i| Seen { view_z: case.keys()[i], z: case.z[i], absorbance: absorbance(case.alpha[i]) }).collect();
+            let exact: Vec<Seen<f64>> = (0..4)
+                .map(|i| Seen {
+                    view_z: case.keys()[i],
+                    z: case.z[i],
+                    absorbance: absorbance(case.alpha[i]),
+                })
+                .collect();
             let mut sums = PixelSums::<f64, 4>::default();
             exact.iter().for_each(|&s| sums.add(s));
             let middle = exact.iter().find(|s| s.view_z == 2.0).copied().unwrap();
@@ -554,7 +641,10 @@ mod tests {
             let t = |sums: &PixelSums<f64, 4>| match sums.look_at_stored(
                 middle,
                 ends,
-                Rounding { unit: f64::from(f32::EPSILON), every_addition: true },
+                Rounding {
+                    unit: f64::from(f32::EPSILON),
+                    every_addition: true,
+                },
             ) {
                 Known::Transmittance(t) => t,
                 Known::Features(..) => f64::NAN,
@@ -584,14 +674,28 @@ mod tests {
                 let case = Case::random(&mut rng, n, 0.3, 0.0);
                 let (lo, hi) = case.z.iter().fold((1.0f64, -1.0f64), |(l, h), &z| (l.min(z), h.max(z)));
                 for (i, known) in case.look::<f64, K>().into_iter().enumerate() {
-                    let Known::Features([x, count, ln_b0], measure) = known else { continue };
+                    let Known::Features([x, count, ln_b0], measure) = known else {
+                        continue;
+                    };
                     let own_x = |z: f64| (2.0 * z - lo - hi) / (hi - lo);
-                    let others: Vec<(f64, f64)> = (0..n).filter(|&j| j != i).map(|j| (own_x(case.z[j]), absorbance(case.alpha[j]))).collect();
+                    let others: Vec<(f64, f64)> = (0..n)
+                        .filter(|&j| j != i)
+                        .map(|j| (own_x(case.z[j]), absorbance(case.alpha[j])))
+                        .collect();
                     let b0: f64 = others.iter().map(|o| o.1).sum();
-                    let mut expected = vec![own_x(case.z[i]), (n as f64).log2() / 3.0 - 1.0, (b0 + f64::from(ABSORBANCE_OFFSET)).ln()];
+                    let mut expected = vec![
+                        own_x(case.z[i]),
+                        (n as f64).log2() / 3.0 - 1.0,
+                        (b0 + f64::from(ABSORBANCE_OFFSET)).ln(),
+                    ];
                     for level in 0..K / 2 {
                         // ∫ x^k (1 − x²)^level dμ
-                        let integral = |k: i32| others.iter().map(|&(x, a)| a / b0 * x.powi(k) * (1.0 - x * x).powi(level as i32)).sum::<f64>();
+                        let integral = |k: i32| {
+                            others
+                                .iter()
+                                .map(|&(x, a)| a / b0 * x.powi(k) * (1.0 - x * x).powi(level as i32))
+                                .sum::<f64>()
+                        };
                         let mass = integral(0).max(1e-6);
                         let mean = integral(1) / mass;
                         let spread = (integral(2) / mass - mean * mean) / (1.0 - mean * mean);
@@ -627,7 +731,11 @@ mod tests {
                 nearest: 1.0,
                 farthest: 2.0,
             };
-            let seen = Seen { view_z: 1.5, z: pick().clamp(-1.0, 1.0), absorbance: pick().abs().min(10.0) };
+            let seen = Seen {
+                view_z: 1.5,
+                z: pick().clamp(-1.0, 1.0),
+                absorbance: pick().abs().min(10.0),
+            };
             let end = pick().clamp(-1.0, 1.0);
             match sums.look(seen, [end, (end + pick().abs()).min(1.0)]) {
                 Known::Transmittance(t) => assert!((0.0..=1.0).contains(&t), "{t}"),

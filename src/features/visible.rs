@@ -39,10 +39,10 @@ pub const FAINT: f32 = 1.0 / 16.0;
 pub const HIDDEN: f32 = 9.5e-4;
 
 /// Absorbance of a pixel from which on fragments may be hidden in it: with less, hardly any are.
-pub const LEAST_HIDING: f32 = 5.0;
+pub const MIN_HIDING: f32 = 5.0;
 
 /// Answers whose weights sum to less than this are not to be trusted with hidden fragments; a hair more than a half, for rounding.
-pub const LEAST_WEIGHT: f32 = 0.501;
+pub const MIN_WEIGHT: f32 = 0.501;
 
 /// Rounding of moment depths, beyond which they stand in the order of the view depths \[moment depth\].
 pub const ORDER: f64 = 2e-6;
@@ -110,8 +110,11 @@ pub fn most_behind<R: Real>(x: R, m: [R; 4], noise: &Noise<R>) -> R {
     // (E + t)(t − r)², then times (1 + γx) − γt.
     let p = [end * r * r, r * r - two * r * end, end - two * r, one];
     let lift = one + gamma * x;
-    let value =
-        p[0] * lift + (p[1] * lift - gamma * p[0]) * m[0] + (p[2] * lift - gamma * p[1]) * m[1] + (p[3] * lift - gamma * p[2]) * m[2] - gamma * m[3];
+    let value = p[0] * lift
+        + (p[1] * lift - gamma * p[0]) * m[0]
+        + (p[2] * lift - gamma * p[1]) * m[1]
+        + (p[3] * lift - gamma * p[2]) * m[2]
+        - gamma * m[3];
     let lost = noise.moments * (end + rho) * square(rho + r.abs()) * (one + gamma * (x.abs() + rho));
     let quartic = (value + lost) * per_value;
     let share = bound.min(quartic) * (one + margin);
@@ -120,9 +123,9 @@ pub fn most_behind<R: Real>(x: R, m: [R; 4], noise: &Noise<R>) -> R {
 }
 
 /// Moment depth from which on one looks for hidden fragments: with b_0 the pixel's absorbance and V its variance, that at which
-/// (z − mean)² (b_0 − 5) = 5 V, where Cantelli leaves e^−5 or so. In front of it the bounds would find few more; infinity where b_0 ≤ [`LEAST_HIDING`].
+/// (z − mean)² (b_0 − 5) = 5 V, where Cantelli leaves e^−5 or so. In front of it the bounds would find few more; infinity where b_0 ≤ [`MIN_HIDING`].
 pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
-    let least = R::from_f32(LEAST_HIDING);
+    let least = R::from_f32(MIN_HIDING);
     if b0 <= least {
         return R::from_f32(f32::INFINITY);
     }
@@ -180,7 +183,12 @@ mod tests {
     }
 
     fn no_noise<R: Real>() -> Noise<R> {
-        Noise { moments: R::from_f64(16.0) * R::EPSILON, reach: R::ONE, position: R::from_f64(1e-6), depth: R::ZERO }
+        Noise {
+            moments: R::from_f64(16.0) * R::EPSILON,
+            reach: R::ONE,
+            position: R::from_f64(1e-6),
+            depth: R::ZERO,
+        }
     }
 
     /// Random and adversarial measures, x anywhere and on the atoms: the bound is never below the true share, in f64 and in f32. Controls: half the bound is, often; and
@@ -191,16 +199,26 @@ mod tests {
         let (mut tried, mut control, mut useful) = (0, 0, 0);
         for round in 0..200_000 {
             let atoms = measure(&mut rng);
-            let x = if round % 2 == 0 { atoms[rng.random_range(0..atoms.len())].0 } else { rng.random_range(-1.0..=1.0) };
+            let x = if round % 2 == 0 {
+                atoms[rng.random_range(0..atoms.len())].0
+            } else {
+                rng.random_range(-1.0..=1.0)
+            };
             let exact: f64 = atoms.iter().filter(|a| a.0 >= x).map(|a| a.1).sum();
             let wide = most_behind::<f64>(x, moments(&atoms), &no_noise());
             let narrow = most_behind::<f32>(x as f32, moments(&atoms), &no_noise());
-            assert!(wide >= exact - 1e-12 && f64::from(narrow) >= exact - 1e-12, "{wide} {narrow} < {exact} at {x} of {atoms:?}");
+            assert!(
+                wide >= exact - 1e-12 && f64::from(narrow) >= exact - 1e-12,
+                "{wide} {narrow} < {exact} at {x} of {atoms:?}"
+            );
             tried += 1;
             control += usize::from(0.5 * wide < exact);
             useful += usize::from(wide < 1.0);
         }
-        assert!(control > tried / 20 && useful > tried / 3, "{control} {useful} of {tried}");
+        assert!(
+            control > tried / 20 && useful > tried / 3,
+            "{control} {useful} of {tried}"
+        );
     }
 
     /// The bound is attained: for atoms at −1, r, x and 1 it is their share, to 1e-4; without the quartic it would be far from it.
@@ -221,7 +239,11 @@ mod tests {
         let odd = [f32::NAN, f32::INFINITY, -1.0, 0.0, 1e-30, 1.0];
         for a in odd {
             for b in odd {
-                let noise = Noise { moments: a, reach: b, ..no_noise() };
+                let noise = Noise {
+                    moments: a,
+                    reach: b,
+                    ..no_noise()
+                };
                 let bound = most_behind::<f32>(0.5, [a, b, a, b], &noise);
                 assert!((0.0..=1.0).contains(&bound));
                 if a.is_nan() || b.is_nan() {

@@ -1,8 +1,9 @@
 //! [`recentred`](super::recentred) and [`visible`](super::visible) for sixteen fragments at once, of any pixels, in f32; function by function what those files do, without branches.
 
 use super::recentred::{
-    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET, INNER_SPREAD_OF_SPREAD,
-    MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION, USUAL_INNER_SPREAD, USUAL_NOISE, USUAL_SPREAD,
+    ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET,
+    INNER_SPREAD_OF_SPREAD, MEAN_DEVIATION, NOISE_GROWTH, SPREAD_DEVIATION, USUAL_INNER_SPREAD, USUAL_NOISE,
+    USUAL_SPREAD,
 };
 use super::visible::{HIDDEN, ORDER};
 use crate::numeric::lanes::{exp, ln};
@@ -74,11 +75,14 @@ pub fn moment_depth<S: Simd>(simd: S, v: f32x16<S>, [v0, v1]: [f32x16<S>; 2]) ->
     let log_ratio = |a: f32x16<S>, b: f32x16<S>| {
         let s = (a - b) / (a + b);
         let q = s * s;
-        let near = (s + s) * (splat(1.0) + q * (splat(0.333_333_34) + q * (splat(0.2) + q * (splat(0.142_857_15) + q * splat(0.111_111_11)))));
+        let near = (s + s)
+            * (splat(1.0)
+                + q * (splat(0.333_333_34) + q * (splat(0.2) + q * (splat(0.142_857_15) + q * splat(0.111_111_11)))));
         s.abs().simd_lt(splat(0.2)).select(near, ln(simd, a / b))
     };
     let warped = splat(2.0) * log_ratio(v, v0) / log_ratio(v1, v0).max(splat(1e-30)) - splat(1.0);
-    v1.simd_gt(v0).select(clamp(warped, splat(-1.0), splat(1.0)), splat(0.0))
+    v1.simd_gt(v0)
+        .select(clamp(warped, splat(-1.0), splat(1.0)), splat(0.0))
 }
 
 impl<S: Simd, const K: usize> Fragments<S, K> {
@@ -106,7 +110,11 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let h2 = h1 * h1;
         let powers = [h1, h2, h2 * h1, h2 * h2];
         for (k, m) in m.iter_mut().enumerate() {
-            let scaled = if k < 4 { *m * powers[k] } else { *m * powers[3] * powers[k - 4] };
+            let scaled = if k < 4 {
+                *m * powers[k]
+            } else {
+                *m * powers[3] * powers[k - 4]
+            };
             *m = clamp(scaled, -one, one);
         }
         let x = clamp((self.z - self.c) * h1, -one, one);
@@ -201,7 +209,8 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 1 => {
                     let deviation = by_count(simd, INNER_SPREAD_DEVIATION, per_n) * (spread0 + splat(0.02));
                     let offset = mean * (one + spread0) - mean0 * (one - spread0);
-                    let usual = by_count(simd, USUAL_INNER_SPREAD, per_n) + splat(INNER_SPREAD_OF_SPREAD as f32) * square(square(spread0))
+                    let usual = by_count(simd, USUAL_INNER_SPREAD, per_n)
+                        + splat(INNER_SPREAD_OF_SPREAD as f32) * square(square(spread0))
                         - splat(INNER_SPREAD_OF_OFFSET as f32) * square(offset);
                     let expected = clamp(usual * spread0 / (one + spread0 + spread0), zero, one);
                     spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
@@ -253,7 +262,10 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let gamma = (one - margin) * (one - one / there) / (end - x);
         let p = [end * r * r, r * r - two * r * end, end - two * r, one];
         let lift = one + gamma * x;
-        let value = p[0] * lift + (p[1] * lift - gamma * p[0]) * m[0] + (p[2] * lift - gamma * p[1]) * m[1] + (p[3] * lift - gamma * p[2]) * m[2]
+        let value = p[0] * lift
+            + (p[1] * lift - gamma * p[0]) * m[0]
+            + (p[2] * lift - gamma * p[1]) * m[1]
+            + (p[3] * lift - gamma * p[2]) * m[2]
             - gamma * m[3];
         let lost = noise * (end + rho) * square(rho + r.abs()) * (one + gamma * (x.abs() + rho));
         let share = bound.min_precise((value + lost) * per_value) * (one + margin);

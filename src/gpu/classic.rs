@@ -32,7 +32,14 @@ pub const NAMES: [&str; 15] = [
 
 /// Pass 1 of 2N power moments.
 fn power_moments(k: usize) -> String {
-    let lines: String = (1..k).map(|i| format!("    let b{i} = {} * f.z;\n", if i == 1 { "b0".to_owned() } else { format!("b{}", i - 1) })).collect();
+    let lines: String = (1..k)
+        .map(|i| {
+            format!(
+                "    let b{i} = {} * f.z;\n",
+                if i == 1 { "b0".to_owned() } else { format!("b{}", i - 1) }
+            )
+        })
+        .collect();
     let items: Vec<String> = (0..k).map(|i| format!("b{i}")).collect();
     format!(
         "\nfn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{\n    let b0 = f.absorbance;\n{lines}    return array<f32, OIT_SUMS>({});\n}}\n",
@@ -42,7 +49,9 @@ fn power_moments(k: usize) -> String {
 
 /// Pass 1 of M trigonometric moments.
 fn trigonometric_moments(m: usize) -> String {
-    let lines: String = (2..=m).map(|i| format!("    let b{i} = complex_times(b{}, x);\n", i - 1)).collect();
+    let lines: String = (2..=m)
+        .map(|i| format!("    let b{i} = complex_times(b{}, x);\n", i - 1))
+        .collect();
     let items: Vec<String> = (1..=m).map(|i| format!("b{i}.x, b{i}.y")).collect();
     format!(
         "\nfn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {{\n    let x = complex_square(half_circle_point(f.z));\n    let b1 = x * f.absorbance;\n{lines}    \
@@ -111,21 +120,40 @@ impl MethodShader {
     /// Against the CPU's method on the same f32 moments: `classic::tests::twins_answer_as_on_the_cpu`.
     pub fn classic(name: &str) -> Option<Self> {
         let (plain, own) = name.strip_suffix("+own").map_or((name, false), |plain| (plain, true));
-        let (head, argument) = plain.split_once(':').map_or((plain, None), |(head, argument)| (head, Some(argument)));
+        let (head, argument) = plain
+            .split_once(':')
+            .map_or((plain, None), |(head, argument)| (head, Some(argument)));
         let of_moments = |source: &str, accumulate: String, curve: String, k: usize| {
             let weight = if own { without_own(&curve, k) } else { with_own(&curve) };
             let source = format!("{ROOTS}\n{source}{accumulate}{weight}");
-            Self { name: name.to_owned(), sums: k, range: own, depth: MomentDepthKind::Log, composite: Composite::Normalised, source }
+            Self {
+                name: name.to_owned(),
+                sums: k,
+                range: own,
+                depth: MomentDepthKind::Log,
+                composite: Composite::Normalised,
+                source,
+            }
         };
         let moments = |head: &str| head.rsplit_once('-').and_then(|(_, count)| count.parse::<usize>().ok());
         match (head, argument) {
             ("moment-power-4" | "moment-power-6" | "moment-power-8", None | Some("f32")) => {
                 let m = moments(head)?;
-                Some(of_moments(HAMBURGER, power_moments(m + 1), format!("power_transmittance_{m}"), m + 1))
+                Some(of_moments(
+                    HAMBURGER,
+                    power_moments(m + 1),
+                    format!("power_transmittance_{m}"),
+                    m + 1,
+                ))
             }
             ("moment-trig-2" | "moment-trig-3" | "moment-trig-4", None | Some("f32")) => {
                 let m = moments(head)?;
-                Some(of_moments(TRIGONOMETRIC, trigonometric_moments(m), format!("trigonometric_transmittance_{m}"), 2 * m + 1))
+                Some(of_moments(
+                    TRIGONOMETRIC,
+                    trigonometric_moments(m),
+                    format!("trigonometric_transmittance_{m}"),
+                    2 * m + 1,
+                ))
             }
             _ if own => None,
             (weighted_sum::NAME, None) => Some(Self::alike(name, Composite::Sum)),
@@ -135,7 +163,11 @@ impl MethodShader {
                     None => Weight::default(),
                     Some(text) => Weight::ALL.into_iter().find(|w| w.name() == text)?,
                 };
-                let depth = if weight == Weight::Mb13Eq10 { MomentDepthKind::Window } else { MomentDepthKind::None };
+                let depth = if weight == Weight::Mb13Eq10 {
+                    MomentDepthKind::Window
+                } else {
+                    MomentDepthKind::None
+                };
                 let call = format!(
                     "\nfn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{\n    return weight_{}(f.v, f.z, f.alpha);\n}}\n",
                     weight.name().replace('-', "_")
@@ -162,13 +194,27 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 }
 ";
         let source = format!("{TOTAL}{weight}");
-        Self { name: name.to_owned(), sums: 1, range: false, depth: MomentDepthKind::Log, composite: Composite::Normalised, source }
+        Self {
+            name: name.to_owned(),
+            sums: 1,
+            range: false,
+            depth: MomentDepthKind::Log,
+            composite: Composite::Normalised,
+            source,
+        }
     }
 
     /// A method that weighs all fragments alike.
     fn alike(name: &str, composite: Composite) -> Self {
         let source = format!("{TOTAL}{ALIKE}");
-        Self { name: name.to_owned(), sums: 1, range: composite == Composite::Average, depth: MomentDepthKind::None, composite, source }
+        Self {
+            name: name.to_owned(),
+            sums: 1,
+            range: composite == Composite::Average,
+            depth: MomentDepthKind::None,
+            composite,
+            source,
+        }
     }
 }
 
@@ -189,25 +235,39 @@ mod tests {
 
     /// Random pixels of the paper's distribution; moments are of logarithmic depth.
     fn random(pixels: usize) -> FragmentList {
-        Synth::new(SynthConfig::paper(), 5).unwrap().pixels(Purpose::Evaluation, 0, pixels)
+        Synth::new(SynthConfig::paper(), 5)
+            .unwrap()
+            .pixels(Purpose::Evaluation, 0, pixels)
     }
 
     /// How far answers are apart, least first, relative to `scale`; what is not finite counts as 9.
     fn apart(a: &[f64], b: &[f64], scale: impl Fn(f64) -> f64) -> Vec<f64> {
         assert!(a.len() == b.len() && a.len() > 100);
         let difference = |(a, b): (&f64, &f64)| (a - b).abs() / scale(*b);
-        let mut d: Vec<f64> = a.iter().zip(b).map(difference).map(|d| if d.is_finite() { d } else { 9.0 }).collect();
+        let mut d: Vec<f64> = a
+            .iter()
+            .zip(b)
+            .map(difference)
+            .map(|d| if d.is_finite() { d } else { 9.0 })
+            .collect();
         d.sort_by(f64::total_cmp);
         d
     }
 
     fn on_gpu(gpu: &Gpu, name: &str, list: &FragmentList) -> Vec<f64> {
         let method = MethodShader::classic(name).unwrap();
-        weights(gpu, &method, list, None, None).unwrap().into_iter().map(f64::from).collect()
+        weights(gpu, &method, list, None, None)
+            .unwrap()
+            .into_iter()
+            .map(f64::from)
+            .collect()
     }
 
     fn on_cpu(name: &str, list: &FragmentList) -> Vec<f64> {
-        oit::weights(list, &*oit::parse(name).unwrap().accumulate(list, Context::default()).unwrap())
+        oit::weights(
+            list,
+            &*oit::parse(name).unwrap().accumulate(list, Context::default()).unwrap(),
+        )
     }
 
     /// The CPU's method with moments that are stored as the GPU stores them.
@@ -256,10 +316,16 @@ mod tests {
             let tolerance = if name.ends_with("mb13-10") { 1e-4 } else { 5e-6 };
             assert!(d[d.len() - 1] <= tolerance, "{name}: {:e}", d[d.len() - 1]);
             if let Some(before) = before.replace(reference).filter(|_| name != "weighted-average") {
-                assert!(apart(&found, &before, f64::abs)[d.len() - 1] > tolerance, "{name} as the method before it");
+                assert!(
+                    apart(&found, &before, f64::abs)[d.len() - 1] > tolerance,
+                    "{name} as the method before it"
+                );
             }
         }
-        assert_eq!(MethodShader::classic("weighted-blended").unwrap().name, "weighted-blended:mb13-9");
+        assert_eq!(
+            MethodShader::classic("weighted-blended").unwrap().name,
+            "weighted-blended:mb13-9"
+        );
     }
 
     /// Pixels that are hard: empty, of one fragment, of two next to each other, of ties, faint and opaque.
@@ -298,7 +364,11 @@ mod tests {
             .flat_map(|p| {
                 let pixel = list.pixel(p);
                 let least = pixel.view_z.iter().copied().fold(f32::INFINITY, f32::min);
-                pixel.view_z.iter().map(move |&v| if v == least { 1.0 } else { 0.0 }).collect::<Vec<_>>()
+                pixel
+                    .view_z
+                    .iter()
+                    .map(move |&v| if v == least { 1.0 } else { 0.0 })
+                    .collect::<Vec<_>>()
             })
             .collect();
         for name in NAMES.into_iter().filter(|n| n.starts_with("moment")) {
@@ -308,13 +378,22 @@ mod tests {
             let front = found.iter().zip(&nearest).filter(|(_, n)| **n == 1.0);
             if name.ends_with("+own") {
                 assert_eq!(bad, 0, "{name}");
-                assert!(front.clone().count() > 1000 && front.clone().all(|(t, _)| *t == 1.0), "{name}");
+                assert!(
+                    front.clone().count() > 1000 && front.clone().all(|(t, _)| *t == 1.0),
+                    "{name}"
+                );
             } else {
                 assert!(bad * 50 <= found.len(), "{name}: {bad}");
                 assert!(front.clone().any(|(t, _)| *t < 0.99), "{name}");
             }
         }
-        let clear = FragmentList::new(vec![0, 200], (1..=200).map(|v| v as f32).collect(), vec![0.0; 200], None).unwrap();
+        let clear = FragmentList::new(
+            vec![0, 200],
+            (1..=200).map(|v| v as f32).collect(),
+            vec![0.0; 200],
+            None,
+        )
+        .unwrap();
         for name in NAMES.into_iter().filter(|n| n.starts_with("moment")) {
             assert!(on_gpu(gpu, name, &clear).iter().all(|&t| t == 1.0), "{name}");
         }
@@ -329,13 +408,19 @@ mod tests {
         let call = format!("{ROOTS}\nfn third(f: array<f32, 1>) -> f32 {{ return cosine_of_third(f[0]); }}");
         let found = run_rows(gpu, Source::Wgsl(&call), "third", &x, 1).unwrap();
         // Near −1 the argument's own rounding counts, half an ulp of 1 + x through a square root.
-        let worst = x.iter().zip(&found).map(|(&x, &g)| (f64::from(g) - libm::cos(libm::acos(x.into()) / 3.0)).abs()).fold(0.0, f64::max);
+        let worst = x
+            .iter()
+            .zip(&found)
+            .map(|(&x, &g)| (f64::from(g) - libm::cos(libm::acos(x.into()) / 3.0)).abs())
+            .fold(0.0, f64::max);
         assert!(worst <= 4e-7, "{worst:e}");
 
         let mut rng = stream(9, 80, 0);
-        for (degree, roots) in
-            [(2, "quadratic_roots(0.5 * f[1], f[0])"), (3, "cubic_roots(f[2], f[1], f[0])"), (4, "quartic_roots(f[3], f[2], f[1], f[0])")]
-        {
+        for (degree, roots) in [
+            (2, "quadratic_roots(0.5 * f[1], f[0])"),
+            (3, "cubic_roots(f[2], f[1], f[0])"),
+            (4, "quartic_roots(f[3], f[2], f[1], f[0])"),
+        ] {
             let mut rows = Vec::new();
             for _ in 0..1000 {
                 let mut at = -3.0 + rng.random_range(0.0..1.0f64);
@@ -351,9 +436,15 @@ mod tests {
             }
             for index in 0..degree {
                 let call = format!("{ROOTS}\nfn nth(f: array<f32, {degree}>) -> f32 {{ return {roots}[{index}]; }}");
-                let found: Vec<f64> = run_rows(gpu, Source::Wgsl(&call), "nth", &rows, degree).unwrap().into_iter().map(f64::from).collect();
-                let expected: Vec<f64> =
-                    rows.chunks(degree).map(|c| real_roots(&c.iter().map(|&c| f64::from(c)).chain([1.0]).collect::<Vec<_>>())[index]).collect();
+                let found: Vec<f64> = run_rows(gpu, Source::Wgsl(&call), "nth", &rows, degree)
+                    .unwrap()
+                    .into_iter()
+                    .map(f64::from)
+                    .collect();
+                let expected: Vec<f64> = rows
+                    .chunks(degree)
+                    .map(|c| real_roots(&c.iter().map(|&c| f64::from(c)).chain([1.0]).collect::<Vec<_>>())[index])
+                    .collect();
                 let worst = *apart(&found, &expected, |_| 1.0).last().unwrap();
                 println!("degree {degree}, root {index}: {worst:.1e}");
                 assert!(worst <= 1e-3, "{degree} {index}: {worst:e}");
@@ -378,7 +469,10 @@ mod tests {
         }
         // Every twin is known to the CPU, by the same name.
         for name in NAMES {
-            assert_eq!(oit::parse(name).unwrap().name(), MethodShader::classic(name).unwrap().name);
+            assert_eq!(
+                oit::parse(name).unwrap().name(),
+                MethodShader::classic(name).unwrap().name
+            );
         }
     }
 }

@@ -21,26 +21,46 @@ const ENTRY: &str = "nmt_rows";
 ///
 /// # Errors
 /// [`GpuError`]: the source is refused, or the rows do not fit.
-pub fn run_rows(gpu: &Gpu, source: Source<'_>, function: &str, rows: &[f32], width: usize) -> Result<Vec<f32>, GpuError> {
+pub fn run_rows(
+    gpu: &Gpu,
+    source: Source<'_>,
+    function: &str,
+    rows: &[f32],
+    width: usize,
+) -> Result<Vec<f32>, GpuError> {
     let count = rows.len() / width;
     let wgsl = match source {
         Source::Wgsl(text) => wrap_wgsl(text, function, width),
         Source::Glsl(text) => wgsl_of_glsl(&wrap_glsl(text, function, width))?,
     };
     // GLSL has no entry point but main.
-    let entry = if matches!(source, Source::Wgsl(_)) { ENTRY } else { "main" };
+    let entry = if matches!(source, Source::Wgsl(_)) {
+        ENTRY
+    } else {
+        "main"
+    };
     let pipeline = gpu.compute(function, &wgsl, entry)?;
     let input = gpu.upload("rows", rows)?;
     let output = gpu.zeros("answers", 4 * count as u64)?;
     let size = gpu.upload("number of rows", &[count as u32])?;
-    gpu.run(function, &[Dispatch { pipeline: &pipeline, buffers: &[&input, &output, &size], groups: groups(count as u64) }])?;
+    gpu.run(
+        function,
+        &[Dispatch {
+            pipeline: &pipeline,
+            buffers: &[&input, &output, &size],
+            groups: groups(count as u64),
+        }],
+    )?;
     gpu.download(&output, count)
 }
 
 fn loads(width: usize, wgsl: bool) -> String {
     let base = if wgsl { "row * " } else { "int(row) * " };
     let suffix = if wgsl { "u" } else { "" };
-    (0..width).map(|i| format!("nmt_rows_in[{base}{width}{suffix} + {i}{suffix}]")).collect::<Vec<_>>().join(", ")
+    (0..width)
+        .map(|i| format!("nmt_rows_in[{base}{width}{suffix} + {i}{suffix}]"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// The source with a compute shader behind it. A directive such as `enable f16;` stays first.
@@ -85,11 +105,22 @@ void main() {{
 
 /// WGSL of a GLSL compute shader.
 fn wgsl_of_glsl(text: &str) -> Result<String, GpuError> {
-    let refused = |reason: String| GpuError::Source { label: "GLSL through naga".to_owned(), reason };
+    let refused = |reason: String| GpuError::Source {
+        label: "GLSL through naga".to_owned(),
+        reason,
+    };
     let mut parser = naga::front::glsl::Frontend::default();
     let options = naga::front::glsl::Options::from(naga::ShaderStage::Compute);
-    let module = parser.parse(&options, text).map_err(|e| refused(e.emit_to_string(text)))?;
-    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::default());
-    let info = validator.validate(&module).map_err(|e| refused(e.emit_to_string(text)))?;
-    naga::back::wgsl::write_string(&module, &info, naga::back::wgsl::WriterFlags::empty()).map_err(|e| refused(e.to_string()))
+    let module = parser
+        .parse(&options, text)
+        .map_err(|e| refused(e.emit_to_string(text)))?;
+    let mut validator = naga::valid::Validator::new(
+        naga::valid::ValidationFlags::all(),
+        naga::valid::Capabilities::default(),
+    );
+    let info = validator
+        .validate(&module)
+        .map_err(|e| refused(e.emit_to_string(text)))?;
+    naga::back::wgsl::write_string(&module, &info, naga::back::wgsl::WriterFlags::empty())
+        .map_err(|e| refused(e.to_string()))
 }

@@ -9,7 +9,9 @@ use wgpu::util::DeviceExt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GpuError {
     /// There is no adapter.
-    #[error("no GPU adapter: {0}; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)")]
+    #[error(
+        "no GPU adapter: {0}; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)"
+    )]
     NoAdapter(String),
     /// The adapter gives no device.
     #[error("{adapter} gives no device: {reason}")]
@@ -109,7 +111,9 @@ impl Gpu {
         // Looking for OpenGL alone makes some drivers write to stderr.
         match std::env::var_os("WGPU_BACKEND") {
             Some(_) => Self::open_on(wgpu::Backends::all(), WANTED),
-            None => Self::open_on(wgpu::Backends::PRIMARY, WANTED).or_else(|_| Self::open_on(wgpu::Backends::all(), WANTED)),
+            None => {
+                Self::open_on(wgpu::Backends::PRIMARY, WANTED).or_else(|_| Self::open_on(wgpu::Backends::all(), WANTED))
+            }
         }
     }
 
@@ -121,19 +125,32 @@ impl Gpu {
 
     fn open_on(backends: wgpu::Backends, wanted: wgpu::Features) -> Result<Self, GpuError> {
         pollster::block_on(async {
-            let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
+            let descriptor = wgpu::InstanceDescriptor {
+                backends,
+                ..wgpu::InstanceDescriptor::new_without_display_handle()
+            };
             let instance = wgpu::Instance::new(descriptor.with_env());
             let adapter = match std::env::var("WGPU_ADAPTER_NAME") {
                 Ok(name) => {
                     let all = instance.enumerate_adapters(backends).await;
                     let names: Vec<String> = all.iter().map(|a| a.get_info().name).collect();
                     let wanted = name.to_lowercase();
-                    let found = all.into_iter().find(|a| a.get_info().name.to_lowercase().contains(&wanted));
-                    found.ok_or_else(|| GpuError::NoAdapter(format!("WGPU_ADAPTER_NAME is '{name}', and there are {names:?}")))?
+                    let found = all
+                        .into_iter()
+                        .find(|a| a.get_info().name.to_lowercase().contains(&wanted));
+                    found.ok_or_else(|| {
+                        GpuError::NoAdapter(format!("WGPU_ADAPTER_NAME is '{name}', and there are {names:?}"))
+                    })?
                 }
                 Err(_) => {
-                    let options = wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-                    instance.request_adapter(&options).await.map_err(|e| GpuError::NoAdapter(e.to_string()))?
+                    let options = wgpu::RequestAdapterOptions {
+                        power_preference: wgpu::PowerPreference::HighPerformance,
+                        ..Default::default()
+                    };
+                    instance
+                        .request_adapter(&options)
+                        .await
+                        .map_err(|e| GpuError::NoAdapter(e.to_string()))?
                 }
             };
             let info = adapter.get_info();
@@ -146,7 +163,10 @@ impl Gpu {
             };
             match adapter.request_device(&descriptor).await {
                 Ok((device, queue)) => Ok(Self { info, device, queue }),
-                Err(error) => Err(GpuError::NoDevice { adapter: info.name, reason: error.to_string() }),
+                Err(error) => Err(GpuError::NoDevice {
+                    adapter: info.name,
+                    reason: error.to_string(),
+                }),
             }
         })
     }
@@ -205,7 +225,10 @@ impl Gpu {
         let memory = pollster::block_on(memory.pop());
         match validation.or(memory) {
             None => Ok(made),
-            Some(error) => Err(GpuError::Refused { label: label.to_owned(), reason: error.to_string() }),
+            Some(error) => Err(GpuError::Refused {
+                label: label.to_owned(),
+                reason: error.to_string(),
+            }),
         }
     }
 
@@ -215,9 +238,10 @@ impl Gpu {
     /// [`GpuError::Refused`] where the source is not valid.
     pub fn compute(&self, label: &str, source: &str, entry: &str) -> Result<wgpu::ComputePipeline, GpuError> {
         self.checked(label, || {
-            let module = self
-                .device
-                .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(source.into()) });
+            let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
+            });
             self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(label),
                 layout: None,
@@ -233,7 +257,16 @@ impl Gpu {
     fn fits(&self, what: &'static str, bytes: u64) -> Result<u64, GpuError> {
         let limits = self.device.limits();
         let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        if bytes > most { Err(GpuError::TooLarge { adapter: self.name(), what, bytes, most }) } else { Ok(bytes.max(16).next_multiple_of(4)) }
+        if bytes > most {
+            Err(GpuError::TooLarge {
+                adapter: self.name(),
+                what,
+                bytes,
+                most,
+            })
+        } else {
+            Ok(bytes.max(16).next_multiple_of(4))
+        }
     }
 
     /// A storage buffer that holds these values; of none, 16 bytes.
@@ -250,13 +283,21 @@ impl Gpu {
             return Ok(buffer);
         }
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents: bytes, usage }))
+        Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(what),
+            contents: bytes,
+            usage,
+        }))
     }
 
     /// A uniform buffer that holds these words.
     pub fn uniform(&self, what: &'static str, words: &[u32]) -> wgpu::Buffer {
         let contents = bytemuck::cast_slice(words);
-        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(what), contents, usage: wgpu::BufferUsages::UNIFORM })
+        self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(what),
+            contents,
+            usage: wgpu::BufferUsages::UNIFORM,
+        })
     }
 
     /// A storage buffer of zeros.
@@ -265,8 +306,18 @@ impl Gpu {
     /// [`GpuError::TooLarge`].
     pub fn zeros(&self, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
         let size = self.fits(what, bytes)?;
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::INDIRECT;
-        self.checked(what, || self.device.create_buffer(&wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false }))
+        let usage = wgpu::BufferUsages::STORAGE
+            | wgpu::BufferUsages::COPY_SRC
+            | wgpu::BufferUsages::COPY_DST
+            | wgpu::BufferUsages::INDIRECT;
+        self.checked(what, || {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(what),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        })
     }
 
     /// The first `count` values of a buffer, once all that was submitted is done.
@@ -278,11 +329,18 @@ impl Gpu {
     /// If the buffer is shorter.
     pub fn download<T: Pod>(&self, buffer: &wgpu::Buffer, count: usize) -> Result<Vec<T>, GpuError> {
         let size = (count * size_of::<T>()) as u64;
-        assert!(size <= buffer.size(), "the buffer holds {} bytes, not {size}", buffer.size());
+        assert!(
+            size <= buffer.size(),
+            "the buffer holds {} bytes, not {size}",
+            buffer.size()
+        );
         if count == 0 {
             return Ok(Vec::new());
         }
-        let refused = |reason: String| GpuError::Refused { label: "download".to_owned(), reason };
+        let refused = |reason: String| GpuError::Refused {
+            label: "download".to_owned(),
+            reason,
+        };
         let staging = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("download"),
             size: size.next_multiple_of(4),
@@ -293,10 +351,17 @@ impl Gpu {
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size.next_multiple_of(4));
         self.queue.submit([encoder.finish()]);
         let (tell, told) = std::sync::mpsc::channel();
-        staging.slice(..).map_async(wgpu::MapMode::Read, move |result| _ = tell.send(result));
+        staging
+            .slice(..)
+            .map_async(wgpu::MapMode::Read, move |result| _ = tell.send(result));
         self.wait()?;
-        told.recv().map_err(|e| refused(e.to_string()))?.map_err(|e| refused(e.to_string()))?;
-        let view = staging.slice(..).get_mapped_range().map_err(|e| refused(e.to_string()))?;
+        told.recv()
+            .map_err(|e| refused(e.to_string()))?
+            .map_err(|e| refused(e.to_string()))?;
+        let view = staging
+            .slice(..)
+            .get_mapped_range()
+            .map_err(|e| refused(e.to_string()))?;
         let mut values = vec![T::zeroed(); count];
         bytemuck::cast_slice_mut::<T, u8>(&mut values).copy_from_slice(&view[..size as usize]);
         Ok(values)
@@ -308,7 +373,10 @@ impl Gpu {
     /// [`GpuError::Refused`] where the device is lost.
     pub fn wait(&self) -> Result<(), GpuError> {
         let done = self.device.poll(wgpu::PollType::wait_indefinitely());
-        done.map(|_| ()).map_err(|e| GpuError::Refused { label: "wait".to_owned(), reason: e.to_string() })
+        done.map(|_| ()).map_err(|e| GpuError::Refused {
+            label: "wait".to_owned(),
+            reason: e.to_string(),
+        })
     }
 
     /// Runs dispatches one after the other, waits, and says how long each took \[s\], as [`Self::timed`] does.
@@ -322,14 +390,20 @@ impl Gpu {
                 .buffers
                 .iter()
                 .enumerate()
-                .map(|(i, buffer)| wgpu::BindGroupEntry { binding: i as u32, resource: buffer.as_entire_binding() })
+                .map(|(i, buffer)| wgpu::BindGroupEntry {
+                    binding: i as u32,
+                    resource: buffer.as_entire_binding(),
+                })
                 .collect();
             let group = self.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some(label),
                 layout: &dispatch.pipeline.get_bind_group_layout(0),
                 entries: &entries,
             });
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: stamps.compute() });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(label),
+                timestamp_writes: stamps.compute(),
+            });
             pass.set_pipeline(dispatch.pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.dispatch_workgroups(dispatch.groups[0], dispatch.groups[1], 1);
@@ -348,7 +422,12 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::Refused`].
-    pub fn timed(&self, label: &str, passes: usize, record: impl Fn(usize, &mut wgpu::CommandEncoder, Stamps<'_>)) -> Result<Vec<f64>, GpuError> {
+    pub fn timed(
+        &self,
+        label: &str,
+        passes: usize,
+        record: impl Fn(usize, &mut wgpu::CommandEncoder, Stamps<'_>),
+    ) -> Result<Vec<f64>, GpuError> {
         if !self.stamps() {
             let mut seconds = Vec::with_capacity(passes);
             for index in 0..passes {
@@ -415,14 +494,22 @@ impl Timer {
     /// For so many passes.
     pub fn new(gpu: &Gpu, passes: usize) -> Self {
         let count = 2 * passes.max(1) as u32;
-        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor { label: Some("timer"), ty: wgpu::QueryType::Timestamp, count });
+        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("timer"),
+            ty: wgpu::QueryType::Timestamp,
+            count,
+        });
         let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("timer"),
             size: u64::from(8 * count),
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        Self { queries, resolved, passes }
+        Self {
+            queries,
+            resolved,
+            passes,
+        }
     }
 
     /// Copies the timestamps out; to be called after the last pass.
@@ -437,6 +524,9 @@ impl Timer {
     pub fn seconds(&self, gpu: &Gpu) -> Result<Vec<f64>, GpuError> {
         let ticks: Vec<u64> = gpu.download(&self.resolved, 2 * self.passes)?;
         let period = f64::from(gpu.queue.get_timestamp_period()) * 1e-9;
-        Ok(ticks.chunks_exact(2).map(|t| t[1].saturating_sub(t[0]) as f64 * period).collect())
+        Ok(ticks
+            .chunks_exact(2)
+            .map(|t| t[1].saturating_sub(t[0]) as f64 * period)
+            .collect())
     }
 }

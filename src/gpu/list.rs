@@ -138,23 +138,54 @@ impl<'a> Passes<'a> {
         }
         let vectors = state.len().div_ceil(4);
         state.resize(4 * vectors, "0.0".to_owned());
-        let store: Vec<String> =
-            (0..vectors).map(|i| format!("oit_state[pixel * {vectors}u + {i}u] = vec4<f32>({});", state[4 * i..4 * i + 4].join(", "))).collect();
-        let load: Vec<String> = (0..vectors).map(|i| format!("let state{i} = oit_state[pixel * {vectors}u + {i}u];")).collect();
+        let store: Vec<String> = (0..vectors)
+            .map(|i| {
+                format!(
+                    "oit_state[pixel * {vectors}u + {i}u] = vec4<f32>({});",
+                    state[4 * i..4 * i + 4].join(", ")
+                )
+            })
+            .collect();
+        let load: Vec<String> = (0..vectors)
+            .map(|i| format!("let state{i} = oit_state[pixel * {vectors}u + {i}u];"))
+            .collect();
         let number = |i: usize| format!("state{}[{}]", i / 4, i % 4);
         let sums: Vec<String> = (0..k).map(number).collect();
-        let range_of: Vec<String> =
-            if method.range { (k..k + 5).map(number).collect() } else { ["0.0", "1.0", "1.0", "0.0", "0.0"].map(str::to_owned).to_vec() };
+        let range_of: Vec<String> = if method.range {
+            (k..k + 5).map(number).collect()
+        } else {
+            ["0.0", "1.0", "1.0", "0.0", "0.0"].map(str::to_owned).to_vec()
+        };
         let add: Vec<String> = (0..k).map(|i| format!("sums[{i}] += term[{i}];")).collect();
-        let accumulate = ACCUMULATE.replace("OIT_ADD", &add.join(" ")).replace("OIT_STORE", &store.join("\n    "));
-        let load = format!("{}\n    let state = OitPixel(array<f32, OIT_SUMS>({}), {});", load.join("\n    "), sums.join(", "), range_of.join(", "));
+        let accumulate = ACCUMULATE
+            .replace("OIT_ADD", &add.join(" "))
+            .replace("OIT_STORE", &store.join("\n    "));
+        let load = format!(
+            "{}\n    let state = OitPixel(array<f32, OIT_SUMS>({}), {});",
+            load.join("\n    "),
+            sums.join(", "),
+            range_of.join(", ")
+        );
         let weigh = WEIGH.replace("OIT_LOAD", &load);
         let module = method.module();
-        let parameters = [range[0], range[1], f32::from_bits(list.pixels as u32), f32::from_bits(list.fragments as u32)];
+        let parameters = [
+            range[0],
+            range[1],
+            f32::from_bits(list.pixels as u32),
+            f32::from_bits(list.fragments as u32),
+        ];
         Ok(Self {
             name: method.name.clone(),
-            accumulate: gpu.compute(&format!("{}, pass 1", method.name), &format!("{module}{accumulate}"), "oit_accumulate_list")?,
-            weigh: gpu.compute(&format!("{}, pass 2", method.name), &format!("{module}{weigh}"), "oit_weigh_list")?,
+            accumulate: gpu.compute(
+                &format!("{}, pass 1", method.name),
+                &format!("{module}{accumulate}"),
+                "oit_accumulate_list",
+            )?,
+            weigh: gpu.compute(
+                &format!("{}, pass 2", method.name),
+                &format!("{module}{weigh}"),
+                "oit_weigh_list",
+            )?,
             state: gpu.zeros("what pass 1 leaves", 16 * (vectors * list.pixels) as u64)?,
             weights: gpu.zeros("weights", 4 * list.fragments as u64)?,
             parameters: gpu.upload("parameters", &parameters)?,
@@ -168,8 +199,14 @@ impl<'a> Passes<'a> {
     /// [`GpuError::Refused`].
     pub fn run(&self, gpu: &Gpu) -> Result<PassSeconds, GpuError> {
         let (first, second) = (self.accumulate_buffers(), self.weigh_buffers());
-        let seconds = gpu.run(&self.name, &[self.accumulate_dispatch(&first), self.weigh_dispatch(&second)])?;
-        Ok(PassSeconds { accumulate: seconds[0], weights: seconds[1] })
+        let seconds = gpu.run(
+            &self.name,
+            &[self.accumulate_dispatch(&first), self.weigh_dispatch(&second)],
+        )?;
+        Ok(PassSeconds {
+            accumulate: seconds[0],
+            weights: seconds[1],
+        })
     }
 
     fn accumulate_buffers(&self) -> Vec<&wgpu::Buffer> {
@@ -179,15 +216,31 @@ impl<'a> Passes<'a> {
 
     fn weigh_buffers(&self) -> Vec<&wgpu::Buffer> {
         let list = self.list;
-        [&list.pixel_of, &list.view_z, &list.alpha, &self.parameters, &self.state, &self.weights].to_vec()
+        [
+            &list.pixel_of,
+            &list.view_z,
+            &list.alpha,
+            &self.parameters,
+            &self.state,
+            &self.weights,
+        ]
+        .to_vec()
     }
 
     fn accumulate_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {
-        Dispatch { pipeline: &self.accumulate, buffers, groups: groups(self.list.pixels as u64) }
+        Dispatch {
+            pipeline: &self.accumulate,
+            buffers,
+            groups: groups(self.list.pixels as u64),
+        }
     }
 
     fn weigh_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {
-        Dispatch { pipeline: &self.weigh, buffers, groups: groups(self.list.fragments as u64) }
+        Dispatch {
+            pipeline: &self.weigh,
+            buffers,
+            groups: groups(self.list.fragments as u64),
+        }
     }
 
     /// Weights of all fragments, in the order of the list.
@@ -235,23 +288,40 @@ mod tests {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let mlp = file::load(&root.join("models/recommended.json")).unwrap();
         for scene in ["teapots", "glass-stacks", "hair", "foliage"] {
-            let options = scene::Options { size: Some((96, 96)), seed: None };
+            let options = scene::Options {
+                size: Some((96, 96)),
+                seed: None,
+            };
             let list = scene::build(&scene::open(scene).unwrap(), &options).unwrap();
             let exact = crate::pixel::abuffer::list_transmittance(&list);
-            let cpu = Neural::new(mlp.clone()).transmittance(&list, Context::default(), &|_| {}).unwrap();
+            let cpu = Neural::new(mlp.clone())
+                .transmittance(&list, Context::default(), &|_| {})
+                .unwrap();
             let error = |t: &[f32]| AbsoluteError::of(&t.iter().map(|&t| t.into()).collect::<Vec<f64>>(), &exact);
             for format in [Format::Wgsl, Format::WgslPlain] {
                 let method = MethodShader::neural(&mlp, format).unwrap();
                 let found = weights(gpu, &method, &list, None, None).unwrap();
                 // Greatest difference of the nearest 99 %.
                 let off = |a: &[f32]| {
-                    let mut d: Vec<f32> = a.iter().zip(&cpu).map(|(a, b)| (a - b).abs()).map(|d| if d.is_nan() { 9.0 } else { d }).collect();
+                    let mut d: Vec<f32> = a
+                        .iter()
+                        .zip(&cpu)
+                        .map(|(a, b)| (a - b).abs())
+                        .map(|d| if d.is_nan() { 9.0 } else { d })
+                        .collect();
                     d.sort_by(f32::total_cmp);
                     d[(d.len() - 1) * 99 / 100]
                 };
                 let (ours, theirs) = (error(&found).mse(), error(&cpu).mse());
-                println!("{scene} {}: 99 % within {:.1e}; T-MSE {ours:.4e} for {theirs:.4e}", format.name(), off(&found));
-                assert!(found.len() > 1000 && off(&found) <= 3e-3 && (ours - theirs).abs() <= 0.02 * theirs, "{scene}");
+                println!(
+                    "{scene} {}: 99 % within {:.1e}; T-MSE {ours:.4e} for {theirs:.4e}",
+                    format.name(),
+                    off(&found)
+                );
+                assert!(
+                    found.len() > 1000 && off(&found) <= 3e-3 && (ours - theirs).abs() <= 0.02 * theirs,
+                    "{scene}"
+                );
                 let shifted: Vec<f32> = found.iter().cycle().skip(5).take(found.len()).copied().collect();
                 assert!(off(&shifted) > 1e-2, "the control of {scene}");
             }

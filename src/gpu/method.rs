@@ -2,7 +2,7 @@
 
 use super::device::GpuError;
 use crate::export::Format;
-use crate::features::recentred::MOST_ABSORBANCE;
+use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::oit::neural::Skip;
@@ -64,13 +64,27 @@ impl MethodShader {
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, GpuError> {
         let label = || format!("neural:{}", mlp.name());
         let set = mlp.feature_set();
-        if !matches!(format, Format::Wgsl | Format::WgslPlain | Format::WgslF16 | Format::WgslPlainF16) {
-            return Err(GpuError::Source { label: label(), reason: format!("{} is not WGSL", format.name()) });
+        if !matches!(
+            format,
+            Format::Wgsl | Format::WgslPlain | Format::WgslF16 | Format::WgslPlainF16
+        ) {
+            return Err(GpuError::Source {
+                label: label(),
+                reason: format!("{} is not WGSL", format.name()),
+            });
         }
-        let export = crate::export::encode(mlp, format).map_err(|e| GpuError::Source { label: label(), reason: e.to_string() })?;
+        let export = crate::export::encode(mlp, format).map_err(|e| GpuError::Source {
+            label: label(),
+            reason: e.to_string(),
+        })?;
         let export = String::from_utf8(export).expect("shader source is text");
         let k = set.moments();
-        let moments = |base: &str, from: usize| (0..k).map(|i| format!("{base}[{}]", i + from)).collect::<Vec<_>>().join(", ");
+        let moments = |base: &str, from: usize| {
+            (0..k)
+                .map(|i| format!("{base}[{}]", i + from))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
         let glue = match set {
             FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => format!(
                 "
@@ -117,7 +131,7 @@ fn oit_hidden_weight(f: OitFragment, p: OitPixel) -> f32 {{
                     moments("p.sums", 1)
                 ),
                 width = set.width(),
-                most = MOST_ABSORBANCE as f32
+                most = MAX_ABSORBANCE as f32
             ),
             FeatureSet::Paper => "
 fn oit_accumulate(f: OitFragment) -> array<f32, OIT_SUMS> {
@@ -138,7 +152,14 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
             }
         };
         let source = format!("{export}{glue}");
-        Ok(Self { name: label(), sums: k + 1, range: true, depth: set.moment_depth(), composite: Composite::Normalised, source })
+        Ok(Self {
+            name: label(),
+            sums: k + 1,
+            range: true,
+            depth: set.moment_depth(),
+            composite: Composite::Normalised,
+            source,
+        })
     }
 
     /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what cannot be seen; `None` and `Exact` are one text, whose branches the device
@@ -147,7 +168,10 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         if skip != Skip::Visible || !self.tells_visible() {
             return self;
         }
-        let source = self.source.replace("fn oit_weight(", "fn oit_exact_weight(").replace("fn oit_visible_weight(", "fn oit_weight(");
+        let source = self
+            .source
+            .replace("fn oit_weight(", "fn oit_exact_weight(")
+            .replace("fn oit_visible_weight(", "fn oit_weight(");
         Self { source, ..self }
     }
 
@@ -163,7 +187,8 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
     pub fn module(&self) -> String {
-        let (directives, rest): (Vec<&str>, Vec<&str>) = self.source.lines().partition(|line| line.starts_with("enable "));
+        let (directives, rest): (Vec<&str>, Vec<&str>) =
+            self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
             MomentDepthKind::Log => {
                 "
@@ -189,24 +214,40 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
 "
             }
         };
-        format!("{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n", directives.join("\n"), self.sums, include_str!("prelude.wgsl"), rest.join("\n"))
+        format!(
+            "{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n",
+            directives.join("\n"),
+            self.sums,
+            include_str!("prelude.wgsl"),
+            rest.join("\n")
+        )
     }
 
     /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes.
     ///
     /// # Errors
     /// [`GpuError::Source`] where planes are needed and unknown.
-    pub fn depth_range(&self, list: &FragmentList, planes: Option<CameraPlanes>, depth_range: Option<(f32, f32)>) -> Result<[f32; 2], GpuError> {
+    pub fn depth_range(
+        &self,
+        list: &FragmentList,
+        planes: Option<CameraPlanes>,
+        depth_range: Option<(f32, f32)>,
+    ) -> Result<[f32; 2], GpuError> {
         match self.depth {
             MomentDepthKind::Window => {
-                let planes = planes
-                    .or(list.planes())
-                    .ok_or_else(|| GpuError::Source { label: self.name.clone(), reason: crate::pixel::DepthError::NoPlanes.to_string() })?;
+                let planes = planes.or(list.planes()).ok_or_else(|| GpuError::Source {
+                    label: self.name.clone(),
+                    reason: crate::pixel::DepthError::NoPlanes.to_string(),
+                })?;
                 Ok([planes.near(), planes.far()])
             }
             MomentDepthKind::Log | MomentDepthKind::None => {
                 let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
-                let scale = if v1 > v0 { 2.0 / libm::log(f64::from(v1) / f64::from(v0)) } else { 0.0 };
+                let scale = if v1 > v0 {
+                    2.0 / libm::log(f64::from(v1) / f64::from(v0))
+                } else {
+                    0.0
+                };
                 Ok([v0, scale as f32])
             }
         }

@@ -23,7 +23,10 @@ pub(crate) mod tests {
             Ok(gpu) => Some(gpu),
             Err(why) => {
                 let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-                assert!(!required.split(',').any(|tool| tool.trim() == "gpu"), "a GPU is required: {why}");
+                assert!(
+                    !required.split(',').any(|tool| tool.trim() == "gpu"),
+                    "a GPU is required: {why}"
+                );
                 println!("skipped: {why}");
                 None
             }

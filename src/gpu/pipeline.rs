@@ -71,12 +71,18 @@ pub struct Limits {
 
 impl Limits {
     /// What every WebGPU device allows.
-    pub const WEBGPU: Self = Self { bytes_per_pixel: 32, targets: 8 };
+    pub const WEBGPU: Self = Self {
+        bytes_per_pixel: 32,
+        targets: 8,
+    };
 
     /// What this device allows.
     pub fn of(gpu: &Gpu) -> Self {
         let limits = gpu.device.limits();
-        Self { bytes_per_pixel: limits.max_color_attachment_bytes_per_sample, targets: limits.max_color_attachments }
+        Self {
+            bytes_per_pixel: limits.max_color_attachment_bytes_per_sample,
+            targets: limits.max_color_attachments,
+        }
     }
 }
 
@@ -124,20 +130,34 @@ impl Target {
                     _ if half => Rgba16Float,
                     _ => Rgba32Float,
                 };
-                Self { format, holds: Holds::Added { first, count } }
+                Self {
+                    format,
+                    holds: Holds::Added { first, count },
+                }
             })
             .collect();
         match method.range {
             false => {}
-            true if half => targets.extend([Holds::Nearest, Holds::Farthest].map(|holds| Self { format: Depth32Float, holds })),
-            true => targets.push(Self { format: Rg32Float, holds: Holds::Range }),
+            true if half => targets.extend([Holds::Nearest, Holds::Farthest].map(|holds| Self {
+                format: Depth32Float,
+                holds,
+            })),
+            true => targets.push(Self {
+                format: Rg32Float,
+                holds: Holds::Range,
+            }),
         }
         targets
     }
 
     /// Bytes of a pixel.
     pub fn bytes(self) -> u32 {
-        self.channels() * if matches!(self.format, R16Float | Rg16Float | Rgba16Float) { 2 } else { 4 }
+        self.channels()
+            * if matches!(self.format, R16Float | Rg16Float | Rgba16Float) {
+                2
+            } else {
+                4
+            }
     }
 
     fn channels(self) -> u32 {
@@ -170,18 +190,38 @@ impl Target {
                 })
                 .collect(),
         };
-        if terms.len() == 1 { terms[0].clone() } else { format!("{}({})", self.wgsl_type(), terms.join(", ")) }
+        if terms.len() == 1 {
+            terms[0].clone()
+        } else {
+            format!("{}({})", self.wgsl_type(), terms.join(", "))
+        }
     }
 
     fn blend(self) -> wgpu::BlendState {
-        let operation = if self.holds == Holds::Range { wgpu::BlendOperation::Max } else { wgpu::BlendOperation::Add };
-        let both = wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
-        wgpu::BlendState { color: both, alpha: both }
+        let operation = if self.holds == Holds::Range {
+            wgpu::BlendOperation::Max
+        } else {
+            wgpu::BlendOperation::Add
+        };
+        let both = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation,
+        };
+        wgpu::BlendState {
+            color: both,
+            alpha: both,
+        }
     }
 
     fn clear(self) -> wgpu::Color {
         match self.holds {
-            Holds::Range => wgpu::Color { r: NOTHING, g: NOTHING, b: 0.0, a: 0.0 },
+            Holds::Range => wgpu::Color {
+                r: NOTHING,
+                g: NOTHING,
+                b: 0.0,
+                a: 0.0,
+            },
             _ => wgpu::Color::TRANSPARENT,
         }
     }
@@ -228,7 +268,13 @@ impl Shaders {
         for (index, target) in targets.iter().enumerate() {
             bytes += target.bytes();
             match draws.last_mut() {
-                Some(draw) if !target.is_depth() && bytes <= limits.bytes_per_pixel && draw.len() < limits.targets as usize => draw.push(index),
+                Some(draw)
+                    if !target.is_depth()
+                        && bytes <= limits.bytes_per_pixel
+                        && draw.len() < limits.targets as usize =>
+                {
+                    draw.push(index)
+                }
                 _ => {
                     bytes = target.bytes();
                     draws.push(vec![index]);
@@ -237,22 +283,37 @@ impl Shaders {
         }
         let module = method.module();
         // What thin pixels take for noise follows from how sums are stored.
-        let module = if storage == Storage::Half { with_rounding(&module, crate::features::Storage::F16.rounding().unit) } else { module };
+        let module = if storage == Storage::Half {
+            with_rounding(&module, crate::features::Storage::F16.rounding().unit)
+        } else {
+            module
+        };
         let pass1 = draws.into_iter().map(|draw| {
             if targets[draw[0]].is_depth() {
                 return (format!("{module}{FRAME}{POINTS}{END}"), draw);
             }
-            let declared = |(location, &i): (usize, &usize)| format!("@location({location}) target{i}: {},", targets[i].wgsl_type());
+            let declared = |(location, &i): (usize, &usize)| {
+                format!("@location({location}) target{i}: {},", targets[i].wgsl_type())
+            };
             let declared: Vec<String> = draw.iter().enumerate().map(declared).collect();
             let terms: Vec<String> = draw.iter().map(|&i| targets[i].terms(method.sums)).collect();
-            let entry = PASS1.replace("OIT_TARGETS", &declared.join("\n    ")).replace("OIT_TERMS", &terms.join(", "));
+            let entry = PASS1
+                .replace("OIT_TARGETS", &declared.join("\n    "))
+                .replace("OIT_TERMS", &terms.join(", "));
             (format!("{module}{FRAME}{POINTS}{entry}"), draw)
         });
         let state = state(&targets, method.sums);
         Self {
             pass1: pass1.collect(),
-            pass2: format!("{module}{FRAME}{POINTS}{state}{}", PASS2.replace("OIT_RANGE", &range(&targets))),
-            resolve: format!("const OIT_SUMS = {}u;\n\n{FRAME}{state}{}{RESOLVE}", method.sums, composite(method.composite)),
+            pass2: format!(
+                "{module}{FRAME}{POINTS}{state}{}",
+                PASS2.replace("OIT_RANGE", &range(&targets))
+            ),
+            resolve: format!(
+                "const OIT_SUMS = {}u;\n\n{FRAME}{state}{}{RESOLVE}",
+                method.sums,
+                composite(method.composite)
+            ),
             targets,
         }
     }
@@ -262,7 +323,11 @@ impl Shaders {
 fn state(targets: &[Target], sums: usize) -> String {
     let (mut textures, mut loads) = (Vec::new(), Vec::new());
     for (i, target) in targets.iter().enumerate() {
-        let kind = if target.is_depth() { "texture_depth_2d" } else { "texture_2d<f32>" };
+        let kind = if target.is_depth() {
+            "texture_depth_2d"
+        } else {
+            "texture_2d<f32>"
+        };
         textures.push(format!("@group(2) @binding({i}) var oit_target{i}: {kind};"));
         if matches!(target.holds, Holds::Added { first, .. } if first < sums) {
             loads.push(format!("let target{i} = textureLoad(oit_target{i}, at, 0);"));
@@ -271,7 +336,11 @@ fn state(targets: &[Target], sums: usize) -> String {
     let added = |i: usize| format!("target{}[{}]", i / 4, i % 4);
     let parts: Vec<String> = (0..sums).map(added).collect();
     let counted = targets.iter().any(|t| !matches!(t.holds, Holds::Added { .. }));
-    let count = if counted { format!("textureLoad(oit_target{}, at, 0)[{}]", sums / 4, sums % 4) } else { "0.0".to_owned() };
+    let count = if counted {
+        format!("textureLoad(oit_target{}, at, 0)[{}]", sums / 4, sums % 4)
+    } else {
+        "0.0".to_owned()
+    };
     STATE
         .replace("OIT_TEXTURES", &textures.join("\n"))
         .replace("OIT_LOADS", &loads.join("\n    "))
@@ -283,7 +352,9 @@ fn state(targets: &[Target], sums: usize) -> String {
 fn range(targets: &[Target]) -> String {
     let place = |holds: Holds| targets.iter().position(|t| t.holds == holds);
     match (place(Holds::Range), place(Holds::Nearest).zip(place(Holds::Farthest))) {
-        (Some(range), _) => format!("let ends = textureLoad(oit_target{range}, at, 0);\n    let nearest = -ends.x;\n    let farthest = ends.y;"),
+        (Some(range), _) => format!(
+            "let ends = textureLoad(oit_target{range}, at, 0);\n    let nearest = -ends.x;\n    let farthest = ends.y;"
+        ),
         (None, Some((nearest, farthest))) => format!(
             "let nearest = textureLoad(oit_target{nearest}, at, 0) * oit_frame.scale.y;\n    let farthest = textureLoad(oit_target{farthest}, at, 0) * \
              oit_frame.scale.y;"
@@ -307,13 +378,29 @@ struct Layouts {
 impl Layouts {
     fn new(gpu: &Gpu, targets: &[Target]) -> Self {
         let layout = |label, visibility, types: &[wgpu::BindingType]| {
-            let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+            let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility,
+                ty,
+                count: None,
+            };
             let entries: Vec<_> = (0..).zip(types).map(entry).collect();
-            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
         };
-        let uniform = wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
+        let uniform = wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
         let texture = |is_depth| wgpu::BindingType::Texture {
-            sample_type: if is_depth { wgpu::TextureSampleType::Depth } else { wgpu::TextureSampleType::Float { filterable: false } },
+            sample_type: if is_depth {
+                wgpu::TextureSampleType::Depth
+            } else {
+                wgpu::TextureSampleType::Float { filterable: false }
+            },
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
         };
@@ -328,10 +415,21 @@ impl Layouts {
 }
 
 fn fragments_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let ty =
-        wgpu::BindingType::Buffer { ty: wgpu::BufferBindingType::Storage { read_only: true }, has_dynamic_offset: false, min_binding_size: None };
-    let entry = |binding| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::VERTEX, ty, count: None };
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("fragments"), entries: &[0, 1, 2, 3].map(entry) })
+    let ty = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only: true },
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX,
+        ty,
+        count: None,
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("fragments"),
+        entries: &[0, 1, 2, 3].map(entry),
+    })
 }
 
 /// A fragment list on the device, ready to be drawn.
@@ -348,18 +446,22 @@ pub struct Drawing {
 /// Columns and rows of the image that a list makes.
 pub(super) fn size_of(list: &FragmentList) -> Result<(u32, u32), GpuError> {
     let none = |why: String| GpuError::NoImage(why);
-    let (width, height) = list.size().ok_or_else(|| none("the fragment list has neither width nor height; add both to the file".to_owned()))?;
+    let (width, height) = list
+        .size()
+        .ok_or_else(|| none("the fragment list has neither width nor height; add both to the file".to_owned()))?;
     if list.pixels() == 0 {
         return Err(none(format!("{width} x {height} has no pixel")));
     }
     if list.color().is_none() && !list.is_empty() {
-        return Err(none("the fragments have no color; add a float32 array 'color' of shape [F, 3] to the file".to_owned()));
+        return Err(none(
+            "the fragments have no color; add a float32 array 'color' of shape [F, 3] to the file".to_owned(),
+        ));
     }
     Ok((width, height))
 }
 
 /// What v must lie below for its scale to be a normal f32.
-const MOST_SCALED: f32 = 8.507_059e37;
+const MAX_SCALED: f32 = 8.507_059e37;
 
 /// The power of two that takes v to [1/2, 1); its inverse is an f32 too.
 fn scale_below_1(v: f32) -> f32 {
@@ -397,12 +499,27 @@ impl Drawing {
                 gpu.upload("alpha", &list.alpha()[range.clone()])?,
                 gpu.upload("color", color[range.clone()].as_flattened())?,
             ];
-            let entries: Vec<_> = (0..).zip(&buffers).map(|(i, b)| wgpu::BindGroupEntry { binding: i, resource: b.as_entire_binding() }).collect();
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("fragments"), layout: &layout, entries: &entries });
+            let entries: Vec<_> = (0..)
+                .zip(&buffers)
+                .map(|(i, b)| wgpu::BindGroupEntry {
+                    binding: i,
+                    resource: b.as_entire_binding(),
+                })
+                .collect();
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("fragments"),
+                layout: &layout,
+                entries: &entries,
+            });
             chunks.push((range.len() as u32, group));
         }
         let greatest = list.depth_range().map_or(1.0, |(_, greatest)| greatest);
-        Ok(Self { width, height, greatest, chunks })
+        Ok(Self {
+            width,
+            height,
+            greatest,
+            chunks,
+        })
     }
 }
 
@@ -476,16 +593,31 @@ impl<'a> Pipeline<'a> {
         limits: Limits,
     ) -> Result<Self, GpuError> {
         if storage.blends_f32() && !gpu.blends_f32() {
-            return Err(GpuError::Lacks { adapter: gpu.name(), feature: BLENDING });
+            return Err(GpuError::Lacks {
+                adapter: gpu.name(),
+                feature: BLENDING,
+            });
         }
-        if storage == Storage::Half && drawing.greatest >= MOST_SCALED {
-            return Err(GpuError::NoImage(format!("view_z {:e} is too far away for a depth buffer, take a smaller unit", drawing.greatest)));
+        if storage == Storage::Half && drawing.greatest >= MAX_SCALED {
+            return Err(GpuError::NoImage(format!(
+                "view_z {:e} is too far away for a depth buffer, take a smaller unit",
+                drawing.greatest
+            )));
         }
-        let Shaders { targets, pass1, pass2, resolve } = Shaders::new(method, storage, limits);
+        let Shaders {
+            targets,
+            pass1,
+            pass2,
+            resolve,
+        } = Shaders::new(method, storage, limits);
         gpu.checked(&method.name, || {
             let device = &gpu.device;
             let layouts = Layouts::new(gpu, &targets);
-            let size = wgpu::Extent3d { width: drawing.width, height: drawing.height, depth_or_array_layers: 1 };
+            let size = wgpu::Extent3d {
+                width: drawing.width,
+                height: drawing.height,
+                depth_or_array_layers: 1,
+            };
             let texture = |label, format, usage| {
                 device.create_texture(&wgpu::TextureDescriptor {
                     label: Some(label),
@@ -500,41 +632,97 @@ impl<'a> Pipeline<'a> {
             };
             let read = wgpu::TextureUsages::TEXTURE_BINDING;
             let format = storage.color();
-            let views: Vec<_> = targets.iter().map(|t| texture("pass 1", t.format, read).create_view(&Default::default())).collect();
+            let views: Vec<_> = targets
+                .iter()
+                .map(|t| texture("pass 1", t.format, read).create_view(&Default::default()))
+                .collect();
             let weighted = texture("pass 2", format, read).create_view(&Default::default());
             let image = texture("image", Rgba32Float, wgpu::TextureUsages::COPY_SRC);
 
             let group = |label, layout, resources: Vec<wgpu::BindingResource<'_>>| {
-                let entries: Vec<_> = (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-                device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+                let entries: Vec<_> = (0..)
+                    .zip(resources)
+                    .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+                    .collect();
+                device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some(label),
+                    layout,
+                    entries: &entries,
+                })
             };
             let words = [range[0].to_bits(), range[1].to_bits(), drawing.width, drawing.height];
-            let words = [words, [background[0].to_bits(), background[1].to_bits(), background[2].to_bits(), 0]];
+            let words = [
+                words,
+                [
+                    background[0].to_bits(),
+                    background[1].to_bits(),
+                    background[2].to_bits(),
+                    0,
+                ],
+            ];
             let scale = scale_below_1(drawing.greatest);
             let scale = [scale.to_bits(), scale.recip().to_bits(), 0, 0];
             let frame = gpu.uniform("frame", [words, [scale, [0; 4]]].as_flattened().as_flattened());
 
-            let added = Target { format, holds: Holds::Added { first: 0, count: 4 } };
-            let blended = |t: Target| Some(wgpu::ColorTargetState { format: t.format, blend: Some(t.blend()), write_mask: wgpu::ColorWrites::ALL });
+            let added = Target {
+                format,
+                holds: Holds::Added { first: 0, count: 4 },
+            };
+            let blended = |t: Target| {
+                Some(wgpu::ColorTargetState {
+                    format: t.format,
+                    blend: Some(t.blend()),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })
+            };
             let points = wgpu::PrimitiveTopology::PointList;
             let pass1 = pass1.into_iter().map(|(source, draw)| {
-                let written: Vec<_> = draw.iter().filter(|&&i| !targets[i].is_depth()).map(|&i| blended(targets[i])).collect();
+                let written: Vec<_> = draw
+                    .iter()
+                    .filter(|&&i| !targets[i].is_depth())
+                    .map(|&i| blended(targets[i]))
+                    .collect();
                 let depth = match targets[draw[0]].holds {
                     Holds::Nearest => Some(wgpu::CompareFunction::Less),
                     Holds::Farthest => Some(wgpu::CompareFunction::Greater),
                     _ => None,
                 };
                 let layout = [Some(&layouts.frame), Some(&layouts.fragments)];
-                (render_pipeline(gpu, "pass 1", &source, ["oit_point", "oit_pass1"], &layout, points, depth, &written), draw)
+                (
+                    render_pipeline(
+                        gpu,
+                        "pass 1",
+                        &source,
+                        ["oit_point", "oit_pass1"],
+                        &layout,
+                        points,
+                        depth,
+                        &written,
+                    ),
+                    draw,
+                )
             });
             let all = [Some(&layouts.frame), Some(&layouts.fragments), Some(&layouts.state)];
             let last = [Some(&layouts.frame), Some(&layouts.weighted), Some(&layouts.state)];
-            let plain = [Some(wgpu::ColorTargetState { format: Rgba32Float, blend: None, write_mask: wgpu::ColorWrites::ALL })];
+            let plain = [Some(wgpu::ColorTargetState {
+                format: Rgba32Float,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            })];
             Self {
                 name: method.name.clone(),
                 drawing,
                 pass1: pass1.collect(),
-                pass2: render_pipeline(gpu, "pass 2", &pass2, ["oit_point", "oit_pass2"], &all, points, None, &[blended(added)]),
+                pass2: render_pipeline(
+                    gpu,
+                    "pass 2",
+                    &pass2,
+                    ["oit_point", "oit_pass2"],
+                    &all,
+                    points,
+                    None,
+                    &[blended(added)],
+                ),
                 resolve: render_pipeline(
                     gpu,
                     "resolve",
@@ -546,8 +734,16 @@ impl<'a> Pipeline<'a> {
                     &plain,
                 ),
                 frame: group("frame", &layouts.frame, vec![frame.as_entire_binding()]),
-                state: group("what pass 1 left", &layouts.state, views.iter().map(wgpu::BindingResource::TextureView).collect()),
-                result: group("weighted colour", &layouts.weighted, vec![wgpu::BindingResource::TextureView(&weighted)]),
+                state: group(
+                    "what pass 1 left",
+                    &layouts.state,
+                    views.iter().map(wgpu::BindingResource::TextureView).collect(),
+                ),
+                result: group(
+                    "weighted colour",
+                    &layouts.weighted,
+                    vec![wgpu::BindingResource::TextureView(&weighted)],
+                ),
                 targets: targets.into_iter().zip(views).collect(),
                 weighted,
                 image,
@@ -561,43 +757,64 @@ impl<'a> Pipeline<'a> {
     /// [`GpuError::Refused`].
     pub fn run(&self, gpu: &Gpu) -> Result<FrameSeconds, GpuError> {
         let draws = self.pass1.len();
-        let seconds = gpu.timed(&self.name, draws + 2, |index, encoder, stamps| match self.pass1.get(index) {
-            Some((pipeline, written)) => {
-                let color = written.iter().map(|&i| &self.targets[i]).filter(|(target, _)| !target.is_depth());
-                let attachments: Vec<_> = color.map(|(target, view)| attachment(view, target.clear())).collect();
-                let (first, view) = &self.targets[written[0]];
-                let depth = first.is_depth().then(|| wgpu::RenderPassDepthStencilAttachment {
-                    view,
-                    // Of no fragment: behind all, and before all.
-                    depth_ops: Some(wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(if first.holds == Holds::Nearest { 1.0 } else { 0.0 }),
-                        store: wgpu::StoreOp::Store,
-                    }),
-                    stencil_ops: None,
-                });
-                let mut pass = begin(encoder, "pass 1", &attachments, depth, stamps);
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.frame, &[]);
-                self.draw(&mut pass);
-            }
-            None if index == draws => {
-                let mut pass = begin(encoder, "pass 2", &[attachment(&self.weighted, wgpu::Color::TRANSPARENT)], None, stamps);
-                pass.set_pipeline(&self.pass2);
-                pass.set_bind_group(0, &self.frame, &[]);
-                pass.set_bind_group(2, &self.state, &[]);
-                self.draw(&mut pass);
-            }
-            None => {
-                let view = self.image.create_view(&Default::default());
-                let mut pass = begin(encoder, "resolve", &[attachment(&view, wgpu::Color::TRANSPARENT)], None, stamps);
-                pass.set_pipeline(&self.resolve);
-                pass.set_bind_group(0, &self.frame, &[]);
-                pass.set_bind_group(1, &self.result, &[]);
-                pass.set_bind_group(2, &self.state, &[]);
-                pass.draw(0..3, 0..1);
+        let seconds = gpu.timed(&self.name, draws + 2, |index, encoder, stamps| {
+            match self.pass1.get(index) {
+                Some((pipeline, written)) => {
+                    let color = written
+                        .iter()
+                        .map(|&i| &self.targets[i])
+                        .filter(|(target, _)| !target.is_depth());
+                    let attachments: Vec<_> = color.map(|(target, view)| attachment(view, target.clear())).collect();
+                    let (first, view) = &self.targets[written[0]];
+                    let depth = first.is_depth().then(|| wgpu::RenderPassDepthStencilAttachment {
+                        view,
+                        // Of no fragment: behind all, and before all.
+                        depth_ops: Some(wgpu::Operations {
+                            load: wgpu::LoadOp::Clear(if first.holds == Holds::Nearest { 1.0 } else { 0.0 }),
+                            store: wgpu::StoreOp::Store,
+                        }),
+                        stencil_ops: None,
+                    });
+                    let mut pass = begin(encoder, "pass 1", &attachments, depth, stamps);
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(0, &self.frame, &[]);
+                    self.draw(&mut pass);
+                }
+                None if index == draws => {
+                    let mut pass = begin(
+                        encoder,
+                        "pass 2",
+                        &[attachment(&self.weighted, wgpu::Color::TRANSPARENT)],
+                        None,
+                        stamps,
+                    );
+                    pass.set_pipeline(&self.pass2);
+                    pass.set_bind_group(0, &self.frame, &[]);
+                    pass.set_bind_group(2, &self.state, &[]);
+                    self.draw(&mut pass);
+                }
+                None => {
+                    let view = self.image.create_view(&Default::default());
+                    let mut pass = begin(
+                        encoder,
+                        "resolve",
+                        &[attachment(&view, wgpu::Color::TRANSPARENT)],
+                        None,
+                        stamps,
+                    );
+                    pass.set_pipeline(&self.resolve);
+                    pass.set_bind_group(0, &self.frame, &[]);
+                    pass.set_bind_group(1, &self.result, &[]);
+                    pass.set_bind_group(2, &self.state, &[]);
+                    pass.draw(0..3, 0..1);
+                }
             }
         })?;
-        Ok(FrameSeconds { accumulate: seconds[..draws].iter().sum(), weights: seconds[draws], resolve: seconds[draws + 1] })
+        Ok(FrameSeconds {
+            accumulate: seconds[..draws].iter().sum(),
+            weights: seconds[draws],
+            resolve: seconds[draws + 1],
+        })
     }
 
     /// Draws the frame and fetches it.
@@ -606,7 +823,12 @@ impl<'a> Pipeline<'a> {
     /// [`GpuError::Refused`].
     pub fn render(&self, gpu: &Gpu) -> Result<Rendered, GpuError> {
         let seconds = self.run(gpu)?;
-        Ok(Rendered { width: self.drawing.width, height: self.drawing.height, pixels: self.image(gpu)?, seconds })
+        Ok(Rendered {
+            width: self.drawing.width,
+            height: self.drawing.height,
+            pixels: self.image(gpu)?,
+            seconds,
+        })
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
@@ -643,22 +865,43 @@ impl<'a> Pipeline<'a> {
                     },
                     wgpu::TexelCopyBufferInfo {
                         buffer: &buffer,
-                        layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+                        layout: wgpu::TexelCopyBufferLayout {
+                            offset: 0,
+                            bytes_per_row: Some(row),
+                            rows_per_image: None,
+                        },
                     },
-                    wgpu::Extent3d { width, height: rows, depth_or_array_layers: 1 },
+                    wgpu::Extent3d {
+                        width,
+                        height: rows,
+                        depth_or_array_layers: 1,
+                    },
                 );
                 gpu.queue.submit([encoder.finish()]);
             })?;
             let texels: Vec<[f32; 4]> = gpu.download(&buffer, (row / 16 * rows) as usize)?;
-            pixels.extend(texels.chunks_exact(row as usize / 16).flat_map(|row| &row[..width as usize]).map(|&[r, g, b, _]| [r, g, b]));
+            pixels.extend(
+                texels
+                    .chunks_exact(row as usize / 16)
+                    .flat_map(|row| &row[..width as usize])
+                    .map(|&[r, g, b, _]| [r, g, b]),
+            );
         }
         Ok(pixels)
     }
 }
 
 fn attachment(view: &wgpu::TextureView, clear: wgpu::Color) -> Option<wgpu::RenderPassColorAttachment<'_>> {
-    let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(clear), store: wgpu::StoreOp::Store };
-    Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+    let ops = wgpu::Operations {
+        load: wgpu::LoadOp::Clear(clear),
+        store: wgpu::StoreOp::Store,
+    };
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops,
+    })
 }
 
 fn begin<'e>(
@@ -689,13 +932,28 @@ fn render_pipeline(
     targets: &[Option<wgpu::ColorTargetState>],
 ) -> wgpu::RenderPipeline {
     let device = &gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(source.into()) });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { label: Some(label), bind_group_layouts: layout, immediate_size: 0 });
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: layout,
+        immediate_size: 0,
+    });
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(&layout),
-        vertex: wgpu::VertexState { module: &module, entry_point: Some(vertex), compilation_options: Default::default(), buffers: &[] },
-        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState {
+            topology,
+            ..Default::default()
+        },
         depth_stencil: depth.map(|compare| wgpu::DepthStencilState {
             format: Depth32Float,
             depth_write_enabled: Some(true),
@@ -704,7 +962,12 @@ fn render_pipeline(
             bias: Default::default(),
         }),
         multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState { module: &module, entry_point: Some(fragment), compilation_options: Default::default(), targets }),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets,
+        }),
         multiview_mask: None,
         cache: None,
     })
@@ -755,7 +1018,14 @@ pub(crate) mod tests {
     }
 
     pub fn built_in(name: &str, size: u32) -> FragmentList {
-        scene::build(&scene::open(name).unwrap(), &scene::Options { size: Some((size, size)), seed: None }).unwrap()
+        scene::build(
+            &scene::open(name).unwrap(),
+            &scene::Options {
+                size: Some((size, size)),
+                seed: None,
+            },
+        )
+        .unwrap()
     }
 
     pub fn cpu(mlp: &Mlp, list: &FragmentList) -> Image {
@@ -779,7 +1049,10 @@ pub(crate) mod tests {
     pub fn agree(gpu_image: &Image, cpu: &Image) -> bool {
         let d = differences(gpu_image, cpu);
         let (most, visible) = (d[d.len() * 999 / 1000], flip(cpu, gpu_image).unwrap().mean());
-        println!("99.9 % within {most:.1e}, all within {:.1e}, FLIP {visible:.1e}", d[d.len() - 1]);
+        println!(
+            "99.9 % within {most:.1e}, all within {:.1e}, FLIP {visible:.1e}",
+            d[d.len() - 1]
+        );
         d.len() > 1000 && most <= 1e-3 && visible <= 0.002
     }
 
@@ -789,7 +1062,10 @@ pub(crate) mod tests {
         let view_z = list.view_z().iter().map(|v| v0 / v * v1).collect();
         let (width, height) = list.size().unwrap();
         let color = list.color().map(<[_]>::to_vec);
-        FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), color).unwrap().with_size(width, height).unwrap()
+        FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), color)
+            .unwrap()
+            .with_size(width, height)
+            .unwrap()
     }
 
     /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same scenes with depths turned round.
@@ -799,9 +1075,11 @@ pub(crate) mod tests {
     #[test]
     fn the_image_is_the_cpu_evaluators() {
         let Some(gpu) = gpu() else { return };
-        for (name, networks) in
-            [("teapots", &["recommended", "small"][..]), ("foliage", &["recommended", "moments-6"]), ("glass-stacks", &["small", "paper"])]
-        {
+        for (name, networks) in [
+            ("teapots", &["recommended", "small"][..]),
+            ("foliage", &["recommended", "moments-6"]),
+            ("glass-stacks", &["small", "paper"]),
+        ] {
             let list = built_in(name, 96);
             for network in networks {
                 let (mlp, planes) = (model(network), list.planes());
@@ -812,7 +1090,10 @@ pub(crate) mod tests {
                 assert!(found.seconds.weights > 0.0);
                 if *network != "paper" {
                     let found = render(gpu, &shader(&mlp), &turned(&list), None, None, GREY).unwrap();
-                    assert!(!agree(&image(&list, &found.pixels), &cpu), "{name}, {network}: turned round");
+                    assert!(
+                        !agree(&image(&list, &found.pixels), &cpu),
+                        "{name}, {network}: turned round"
+                    );
                 }
             }
         }
@@ -824,21 +1105,38 @@ pub(crate) mod tests {
         let Some(gpu) = gpu() else { return };
         for name in ["foliage", "hair"] {
             let (list, method) = (built_in(name, 64), shader(&model("recommended")));
-            let draw = |skip| image(&list, &render(gpu, &method.clone().with_skip(skip), &list, None, None, GREY).unwrap().pixels);
+            let draw = |skip| {
+                image(
+                    &list,
+                    &render(gpu, &method.clone().with_skip(skip), &list, None, None, GREY)
+                        .unwrap()
+                        .pixels,
+                )
+            };
             let [exact, visible] = [Skip::Exact, Skip::Visible].map(draw);
             let worst = differences(&visible, &exact)[list.pixels() - 1];
             println!("{name}: {worst:.1e}");
-            assert!(worst <= 1.0 / 512.0 && worst > 0.0 && flip(&exact, &visible).unwrap().mean() <= 5e-4, "{name}: {worst}");
+            assert!(
+                worst <= 1.0 / 512.0 && worst > 0.0 && flip(&exact, &visible).unwrap().mean() <= 5e-4,
+                "{name}: {worst}"
+            );
         }
     }
 
     /// A list of few pixels, seen before [`GREY`].
     pub fn few(width: u32, pixels: &[&[(f32, f32)]]) -> FragmentList {
         let all = pixels.concat();
-        let offsets = (0..=pixels.len()).map(|p| pixels[..p].iter().map(|p| p.len() as u64).sum()).collect();
-        let color = (0..all.len()).map(|i| [i as f32 * 0.37 % 1.0, i as f32 * 0.71 % 1.0, 0.5]).collect();
+        let offsets = (0..=pixels.len())
+            .map(|p| pixels[..p].iter().map(|p| p.len() as u64).sum())
+            .collect();
+        let color = (0..all.len())
+            .map(|i| [i as f32 * 0.37 % 1.0, i as f32 * 0.71 % 1.0, 0.5])
+            .collect();
         let (view_z, alpha) = all.into_iter().unzip();
-        FragmentList::new(offsets, view_z, alpha, Some(color)).unwrap().with_size(width, pixels.len() as u32 / width).unwrap()
+        FragmentList::new(offsets, view_z, alpha, Some(color))
+            .unwrap()
+            .with_size(width, pixels.len() as u32 / width)
+            .unwrap()
     }
 
     /// Pixels that are easily got wrong.
@@ -876,10 +1174,20 @@ pub(crate) mod tests {
         assert!(worst(GREY) <= 1e-6, "{:e}", worst(GREY));
         assert!(worst([0.25, 0.5, 0.7]) > 0.04);
         let nothing = few(2, &[&[], &[]]);
-        assert_eq!(render(gpu, &shader(&mlp), &nothing, None, None, GREY).unwrap().pixels, [GREY; 2]);
+        assert_eq!(
+            render(gpu, &shader(&mlp), &nothing, None, None, GREY).unwrap().pixels,
+            [GREY; 2]
+        );
     }
 
-    fn drawn(gpu: &Gpu, method: &MethodShader, list: &FragmentList, limits: Limits, chunk: usize, storage: Storage) -> (usize, Vec<[f32; 3]>) {
+    fn drawn(
+        gpu: &Gpu,
+        method: &MethodShader,
+        list: &FragmentList,
+        limits: Limits,
+        chunk: usize,
+        storage: Storage,
+    ) -> (usize, Vec<[f32; 3]>) {
         let drawing = Drawing::in_chunks(gpu, list, chunk).unwrap();
         let range = method.depth_range(list, None, None).unwrap();
         let pipeline = Pipeline::within(gpu, &drawing, method, range, GREY, storage, limits).unwrap();
@@ -897,7 +1205,17 @@ pub(crate) mod tests {
             let f32s = Storage::Full;
             let whole = drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, f32s);
             let split = drawn(gpu, &method, &list, Limits::WEBGPU, list.len() / 3, f32s);
-            let least = drawn(gpu, &method, &list, Limits { bytes_per_pixel: 16, targets: 1 }, 1000, f32s);
+            let least = drawn(
+                gpu,
+                &method,
+                &list,
+                Limits {
+                    bytes_per_pixel: 16,
+                    targets: 1,
+                },
+                1000,
+                f32s,
+            );
             assert_eq!((split.0, least.0), (default, narrow), "{network}");
             assert!(whole.1 == split.1 && whole.1 == least.1, "{network}");
         }
@@ -911,7 +1229,13 @@ pub(crate) mod tests {
         let order: Vec<usize> = (0..list.pixels()).flat_map(|p| list.range(p).rev()).collect();
         let pick = |values: &[f32]| order.iter().map(|&i| values[i]).collect::<Vec<_>>();
         let color = order.iter().map(|&i| list.color().unwrap()[i]).collect();
-        let other = FragmentList::new(list.offsets().to_vec(), pick(list.view_z()), pick(list.alpha()), Some(color)).unwrap();
+        let other = FragmentList::new(
+            list.offsets().to_vec(),
+            pick(list.view_z()),
+            pick(list.alpha()),
+            Some(color),
+        )
+        .unwrap();
         let other = other.with_size(48, 48).unwrap();
         let draw = |list| image(list, &render(gpu, &method, list, None, None, GREY).unwrap().pixels);
         assert!(agree(&draw(&other), &draw(&list)));
@@ -922,7 +1246,12 @@ pub(crate) mod tests {
     fn colour_sums_may_have_16_bits() {
         let Some(gpu) = gpu() else { return };
         let (list, method) = (built_in("spheres", 48), shader(&model("recommended")));
-        let draw = |storage| image(&list, &drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, storage).1);
+        let draw = |storage| {
+            image(
+                &list,
+                &drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, storage).1,
+            )
+        };
         let d = differences(&draw(Storage::HalfColor), &draw(Storage::Full));
         let most = d[d.len() * 999 / 1000];
         println!("99.9 % within {most:.1e}");
@@ -941,19 +1270,38 @@ pub(crate) mod tests {
         let exact = image::ground_truth(&list, GREY.map(f64::from)).unwrap();
         let mse = |pixels: &[[f32; 3]]| image(&list, pixels).error(&exact).unwrap().mse();
         let half = mse(&drawn(&poor, &method, &list, Limits::WEBGPU, usize::MAX, Storage::Half).1);
-        let full = mse(&crate::gpu::tiles::render(&poor, &method, &list, None, None, GREY).unwrap().pixels);
+        let full = mse(&crate::gpu::tiles::render(&poor, &method, &list, None, None, GREY)
+            .unwrap()
+            .pixels);
         println!("image MSE {half:.3e} with f16, {full:.3e} with f32");
         assert!(half > full && half < 1.33 * full, "{half:e} {full:e}");
         let odd = odd();
-        let d =
-            differences(&image(&odd, &drawn(&poor, &method, &odd, Limits::WEBGPU, usize::MAX, Storage::Half).1), &cpu(&model("recommended"), &odd));
+        let d = differences(
+            &image(
+                &odd,
+                &drawn(&poor, &method, &odd, Limits::WEBGPU, usize::MAX, Storage::Half).1,
+            ),
+            &cpu(&model("recommended"), &odd),
+        );
         assert!(d[11] <= 4e-3, "{:e}", d[11]);
     }
 
     /// v below 1, and back, without losing a bit.
     #[test]
     fn depth_buffers_keep_every_bit() {
-        for v in [1e-30f32, 0.1, 0.5, 0.999_999_94, 1.0, 1.000_000_1, 2.0, 7.3, 1e6, 1e30, MOST_SCALED.next_down()] {
+        for v in [
+            1e-30f32,
+            0.1,
+            0.5,
+            0.999_999_94,
+            1.0,
+            1.000_000_1,
+            2.0,
+            7.3,
+            1e6,
+            1e30,
+            MAX_SCALED.next_down(),
+        ] {
             let scale = scale_below_1(v);
             assert!((0.5..1.0).contains(&(v * scale)), "{v:e}");
             for v in [v, v * 0.37, v * 1e-3] {
@@ -967,21 +1315,42 @@ pub(crate) mod tests {
     fn shaders_validate() {
         let validate = |source: &str| {
             let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;
-            let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-            validator.validate(&module).map(drop).map_err(|e| e.emit_to_string(source))
+            let mut validator =
+                naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+            validator
+                .validate(&module)
+                .map(drop)
+                .map_err(|e| e.emit_to_string(source))
         };
         let networks = ["recommended", "small", "moments-6", "paper"].map(|name| shader(&model(name)));
         let classic = crate::gpu::classic::NAMES.map(|name| MethodShader::classic(name).unwrap());
         let skipping = [shader(&model("recommended")).with_skip(Skip::Visible)];
         for method in networks.into_iter().chain(classic).chain(skipping) {
-            for limits in [Limits::WEBGPU, Limits { bytes_per_pixel: 16, targets: 1 }, Limits { bytes_per_pixel: 128, targets: 8 }] {
+            for limits in [
+                Limits::WEBGPU,
+                Limits {
+                    bytes_per_pixel: 16,
+                    targets: 1,
+                },
+                Limits {
+                    bytes_per_pixel: 128,
+                    targets: 8,
+                },
+            ] {
                 for storage in Storage::ALL {
                     let shaders = Shaders::new(&method, storage, limits);
-                    let sources = shaders.pass1.iter().map(|p| &p.0).chain([&shaders.pass2, &shaders.resolve]);
+                    let sources = shaders
+                        .pass1
+                        .iter()
+                        .map(|p| &p.0)
+                        .chain([&shaders.pass2, &shaders.resolve]);
                     sources.for_each(|source| validate(source).unwrap());
                 }
             }
-            let broken = MethodShader { source: method.source.replace("oit_weight", "oit_wait"), ..method };
+            let broken = MethodShader {
+                source: method.source.replace("oit_weight", "oit_wait"),
+                ..method
+            };
             assert!(validate(&Shaders::new(&broken, Storage::Full, Limits::WEBGPU).pass2).is_err());
         }
     }
@@ -992,49 +1361,98 @@ pub(crate) mod tests {
     fn classic_methods_are_drawn_too() {
         let Some(gpu) = gpu() else { return };
         let list = built_in("spheres", 64);
-        let methods = ["weighted-sum", "weighted-average", "weighted-blended", "moment-power-4", "moment-trig-4", "moment-power-6+own"];
+        let methods = [
+            "weighted-sum",
+            "weighted-average",
+            "weighted-blended",
+            "moment-power-4",
+            "moment-trig-4",
+            "moment-power-6+own",
+        ];
         for name in methods {
             let method = crate::oit::parse(name).unwrap();
             let accumulated = method.accumulate(&list, Context::default()).unwrap();
-            let cpu = image::of_method(&list, &*accumulated, &weights(&list, &*accumulated), GREY.map(f64::from)).unwrap();
+            let cpu = image::of_method(
+                &list,
+                &*accumulated,
+                &weights(&list, &*accumulated),
+                GREY.map(f64::from),
+            )
+            .unwrap();
             let method = MethodShader::classic(name).unwrap();
             let off = |list: &FragmentList| {
-                let d = differences(&image(list, &render(gpu, &method, list, None, None, GREY).unwrap().pixels), &cpu);
+                let d = differences(
+                    &image(list, &render(gpu, &method, list, None, None, GREY).unwrap().pixels),
+                    &cpu,
+                );
                 (d[d.len() * 99 / 100], d[d.len() - 1])
             };
             let (most, worst) = off(&list);
             println!("{name}: 99 % within {most:.1e}, all within {worst:.1e}");
-            let (bar, all) = if name.starts_with("moment") { (0.03, f64::INFINITY) } else { (1e-4, 1e-4) };
+            let (bar, all) = if name.starts_with("moment") {
+                (0.03, f64::INFINITY)
+            } else {
+                (1e-4, 1e-4)
+            };
             assert!(most <= bar && worst <= all, "{name}: {most:e} {worst:e}");
-            assert!(name == "weighted-sum" || name == "weighted-average" || off(&turned(&list)).0 > bar, "{name}");
+            assert!(
+                name == "weighted-sum" || name == "weighted-average" || off(&turned(&list)).0 > bar,
+                "{name}"
+            );
         }
     }
 
     /// Four moments fit the limits of every device in one draw, six take two.
     #[test]
     fn targets_of_the_shipped_networks() {
-        let formats = |network: &str| Target::of(&shader(&model(network)), Storage::Full).iter().map(|t| t.format).collect::<Vec<_>>();
+        let formats = |network: &str| {
+            Target::of(&shader(&model(network)), Storage::Full)
+                .iter()
+                .map(|t| t.format)
+                .collect::<Vec<_>>()
+        };
         assert_eq!(formats("recommended"), [Rgba32Float, Rg32Float, Rg32Float]);
         assert_eq!(formats("moments-6"), [Rgba32Float, Rgba32Float, Rg32Float]);
-        let bytes: u32 = Target::of(&shader(&model("recommended")), Storage::Full).iter().map(|t| t.bytes()).sum();
+        let bytes: u32 = Target::of(&shader(&model("recommended")), Storage::Full)
+            .iter()
+            .map(|t| t.bytes())
+            .sum();
         assert_eq!(bytes, Limits::WEBGPU.bytes_per_pixel);
-        let bare = MethodShader { sums: 1, range: false, ..shader(&model("small")) };
-        assert_eq!(Target::of(&bare, Storage::Full), [Target { format: R32Float, holds: Holds::Added { first: 0, count: 1 } }]);
+        let bare = MethodShader {
+            sums: 1,
+            range: false,
+            ..shader(&model("small"))
+        };
+        assert_eq!(
+            Target::of(&bare, Storage::Full),
+            [Target {
+                format: R32Float,
+                holds: Holds::Added { first: 0, count: 1 }
+            }]
+        );
     }
 
     /// Lists that make no image, and a device that does not blend.
     #[test]
     fn errors_say_what_is_missing() {
         let bare = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], None).unwrap();
-        let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap().with_size(0, 3).unwrap();
+        let none = FragmentList::new(vec![0], vec![], vec![], None)
+            .unwrap()
+            .with_size(0, 3)
+            .unwrap();
         let message = |list: &FragmentList| size_of(list).unwrap_err().to_string();
         assert!(message(&bare).contains("width"), "{}", message(&bare));
         assert!(message(&bare.clone().with_size(1, 1).unwrap()).contains("color"));
         assert!(message(&none).contains("0 x 3"));
         if gpu().is_some() {
             let poor = Gpu::open_without(wgpu::Features::FLOAT32_BLENDABLE).unwrap();
-            let error = render(&poor, &shader(&model("small")), &odd(), None, None, GREY).unwrap_err().to_string();
-            assert!(error.contains("float32-blendable") && error.contains("gpu::tiles"), "{error}");
+            let error = render(&poor, &shader(&model("small")), &odd(), None, None, GREY)
+                .unwrap_err()
+                .to_string();
+            assert!(
+                error.contains("float32-blendable") && error.contains("gpu::tiles"),
+                "{error}"
+            );
         }
     }
 }

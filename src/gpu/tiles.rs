@@ -8,7 +8,7 @@
 use super::device::{Gpu, GpuError};
 use super::method::{Composite, MethodShader};
 use super::pipeline::{FRAME, FrameSeconds, Rendered, composite, size_of};
-use crate::features::visible::{FAINT, HIDDEN, LEAST_WEIGHT};
+use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
 use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
 
@@ -58,9 +58,19 @@ impl Kernel {
     fn new(gpu: &Gpu, label: &str, source: &str, entry: &str, buffers: &[&wgpu::Buffer]) -> Result<Self, GpuError> {
         let pipeline = gpu.compute(label, source, entry)?;
         let group = gpu.checked(label, || {
-            let entries: Vec<_> = (0..).zip(buffers).map(|(binding, b)| wgpu::BindGroupEntry { binding, resource: b.as_entire_binding() }).collect();
+            let entries: Vec<_> = (0..)
+                .zip(buffers)
+                .map(|(binding, b)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: b.as_entire_binding(),
+                })
+                .collect();
             let layout = pipeline.get_bind_group_layout(0);
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout: &layout, entries: &entries })
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some(label),
+                layout: &layout,
+                entries: &entries,
+            })
         })?;
         Ok(Self { pipeline, group })
     }
@@ -88,12 +98,20 @@ impl TilePasses {
     ///
     /// # Errors
     /// [`GpuError::NoImage`] where the list makes none, [`GpuError::TooLarge`], [`GpuError::Refused`].
-    pub fn new(gpu: &Gpu, list: &FragmentList, method: &MethodShader, range: [f32; 2], background: [f32; 3]) -> Result<Self, GpuError> {
+    pub fn new(
+        gpu: &Gpu,
+        list: &FragmentList,
+        method: &MethodShader,
+        range: [f32; 2],
+        background: [f32; 3],
+    ) -> Result<Self, GpuError> {
         let (width, height) = size_of(list)?;
         let (pixels, k) = (list.pixels() as u64, method.sums);
         let most = gpu.device.limits().max_compute_workgroups_per_dimension;
         if width.max(height).div_ceil(TILE) > most {
-            return Err(GpuError::NoImage(format!("{width} x {height} takes more than {most} tiles in a direction; make it smaller")));
+            return Err(GpuError::NoImage(format!(
+                "{width} x {height} takes more than {most} tiles in a direction; make it smaller"
+            )));
         }
         let offsets: Vec<u32> = list.offsets().iter().map(|&o| o as u32).collect();
         let offsets = gpu.upload("offsets", &offsets)?;
@@ -105,22 +123,36 @@ impl TilePasses {
         let image = gpu.zeros("image", 16 * pixels)?;
         let lists = gpu.zeros("lists of pixels", 4 * (8 + pixels))?;
         let words = [range[0].to_bits(), range[1].to_bits(), width, height];
-        let words = [words, [background[0].to_bits(), background[1].to_bits(), background[2].to_bits(), 0]];
+        let words = [
+            words,
+            [
+                background[0].to_bits(),
+                background[1].to_bits(),
+                background[2].to_bits(),
+                0,
+            ],
+        ];
         let frame = gpu.uniform("frame", [words, [[0; 4]; 2]].as_flattened().as_flattened());
 
         let each = |f: &dyn Fn(usize) -> String, between: &str| (0..k).map(f).collect::<Vec<_>>().join(between);
         let module = method.module();
         let accumulate = include_str!("tiles/accumulate.wgsl")
             .replace("OIT_ADD", &each(&|i| format!("sums[{i}] += term[{i}];"), " "))
-            .replace("OIT_STORE", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " "));
-        let weigh = include_str!("tiles/weigh.wgsl").replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "));
+            .replace(
+                "OIT_STORE",
+                &each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " "),
+            );
+        let weigh = include_str!("tiles/weigh.wgsl")
+            .replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "));
         let shared = format!("{module}{FRAME}{}{weigh}", composite(method.composite));
         let every = format!("{shared}{}", include_str!("tiles/every.wgsl"));
         let classify = |visible| format!("{shared}{}", classify(method, visible));
         let listed = |hiding| format!("{shared}{}", listed(hiding));
 
         let name = |pass: &str| format!("{}, {pass}", method.name);
-        let shaded = [&frame, &offsets, &view_z, &alpha, &color, &sums, &ranges, &image, &lists];
+        let shaded = [
+            &frame, &offsets, &view_z, &alpha, &color, &sums, &ranges, &image, &lists,
+        ];
         let kernel = |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded);
         Ok(Self {
             name: method.name.clone(),
@@ -139,7 +171,10 @@ impl TilePasses {
                 kernel("pixels told apart by what is seen", &classify(true), "oit_classify")?,
             ],
             network: kernel("pass 2, network", &listed(false), "oit_listed_pixels")?,
-            hiding: method.tells_visible().then(|| kernel("pass 2, hidden or network", &listed(true), "oit_listed_pixels")).transpose()?,
+            hiding: method
+                .tells_visible()
+                .then(|| kernel("pass 2, hidden or network", &listed(true), "oit_listed_pixels"))
+                .transpose()?,
             lists,
             image,
         })
@@ -155,15 +190,26 @@ impl TilePasses {
         let passes = match (skip, &self.hiding) {
             (Skip::None, _) => vec![vec![(&self.accumulate, all)], vec![(&self.every, all)]],
             (Skip::Visible, Some(hiding)) => {
-                vec![vec![(&self.accumulate, all)], vec![(&self.classify[1], all)], vec![network, (hiding, Groups::Indirect(12))]]
+                vec![
+                    vec![(&self.accumulate, all)],
+                    vec![(&self.classify[1], all)],
+                    vec![network, (hiding, Groups::Indirect(12))],
+                ]
             }
-            _ => vec![vec![(&self.accumulate, all)], vec![(&self.classify[usize::from(skip == Skip::Visible)], all)], vec![network]],
+            _ => vec![
+                vec![(&self.accumulate, all)],
+                vec![(&self.classify[usize::from(skip == Skip::Visible)], all)],
+                vec![network],
+            ],
         };
         let s = gpu.timed(&self.name, passes.len(), |index, encoder, stamps| {
             if index == 0 {
                 encoder.clear_buffer(&self.lists, 0, Some(32));
             }
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(&self.name), timestamp_writes: stamps.compute() });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(&self.name),
+                timestamp_writes: stamps.compute(),
+            });
             for (kernel, groups) in &passes[index] {
                 pass.set_pipeline(&kernel.pipeline);
                 pass.set_bind_group(0, &kernel.group, &[]);
@@ -174,8 +220,16 @@ impl TilePasses {
             }
         })?;
         Ok(match s[..] {
-            [accumulate, classify, network] => TileSeconds { accumulate, classify, network },
-            _ => TileSeconds { accumulate: s[0], classify: 0.0, network: s[1] },
+            [accumulate, classify, network] => TileSeconds {
+                accumulate,
+                classify,
+                network,
+            },
+            _ => TileSeconds {
+                accumulate: s[0],
+                classify: 0.0,
+                network: s[1],
+            },
         })
     }
 
@@ -185,8 +239,17 @@ impl TilePasses {
     /// [`GpuError::Refused`].
     pub fn render(&self, gpu: &Gpu, skip: Skip) -> Result<Rendered, GpuError> {
         let seconds = self.run(gpu, skip)?;
-        let seconds = FrameSeconds { accumulate: seconds.accumulate, weights: seconds.weights(), resolve: 0.0 };
-        Ok(Rendered { width: self.width, height: self.height, pixels: self.image(gpu)?, seconds })
+        let seconds = FrameSeconds {
+            accumulate: seconds.accumulate,
+            weights: seconds.weights(),
+            resolve: 0.0,
+        };
+        Ok(Rendered {
+            width: self.width,
+            height: self.height,
+            pixels: self.image(gpu)?,
+            seconds,
+        })
     }
 
     /// How many pixels there were of each kind, once [`Self::run`] has told them apart.
@@ -196,7 +259,11 @@ impl TilePasses {
     pub fn counts(&self, gpu: &Gpu) -> Result<PixelCounts, GpuError> {
         let head: Vec<u32> = gpu.download(&self.lists, 8)?;
         let (network, hiding) = (head[6] + head[7], head[7]);
-        Ok(PixelCounts { network, hiding, known: self.width * self.height - network })
+        Ok(PixelCounts {
+            network,
+            hiding,
+            known: self.width * self.height - network,
+        })
     }
 
     /// How many fragments the network was run for, or under [`Skip::None`] all, once [`Self::run`] is done.
@@ -224,8 +291,16 @@ impl TilePasses {
 /// The shader that tells pixels apart: whether one is `known` or `faint`, what `kind` it is else, and the weight of fragments of the known.
 fn classify(method: &MethodShader, visible: bool) -> String {
     // What has no short form needs the long one wherever there is a fragment.
-    let known = if method.has_short_weight() { "state.n <= 4.0 || state.nearest >= state.farthest" } else { "state.n == 0.0" };
-    let short = if method.has_short_weight() { "oit_short_weight(f, state)" } else { "0.0" };
+    let known = if method.has_short_weight() {
+        "state.n <= 4.0 || state.nearest >= state.farthest"
+    } else {
+        "state.n == 0.0"
+    };
+    let short = if method.has_short_weight() {
+        "oit_short_weight(f, state)"
+    } else {
+        "0.0"
+    };
     let (kinds, weight) = match (visible, method.tells_visible()) {
         (_, false) if !visible || method.composite != Composite::Normalised => {
             ("let faint = false;\n    let kind = 0u;".to_owned(), short.to_owned())
@@ -239,7 +314,10 @@ fn classify(method: &MethodShader, visible: bool) -> String {
             format!("select({short}, oit_faint_weight(f, state), faint && !known)"),
         ),
         // Both mean colours lie in [0, 1], whatever the weights.
-        (true, false) => (format!("let faint = state.sums[0] <= {LEAST_OPACITY:?};\n    let kind = 0u;"), "1.0".to_owned()),
+        (true, false) => (
+            format!("let faint = state.sums[0] <= {MIN_OPACITY:?};\n    let kind = 0u;"),
+            "1.0".to_owned(),
+        ),
     };
     include_str!("tiles/classify.wgsl")
         .replace("OIT_KINDS", &format!("let known = {known};\n    {kinds}"))
@@ -248,15 +326,19 @@ fn classify(method: &MethodShader, visible: bool) -> String {
 }
 
 /// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
-const LEAST_OPACITY: f32 = 1.0 / 512.0;
+const MIN_OPACITY: f32 = 1.0 / 512.0;
 
 /// The shader of pixels that need the network, of one kind.
 fn listed(hiding: bool) -> String {
-    let way = if hiding { include_str!("tiles/hiding.wgsl") } else { include_str!("tiles/network.wgsl") };
+    let way = if hiding {
+        include_str!("tiles/hiding.wgsl")
+    } else {
+        include_str!("tiles/network.wgsl")
+    };
     include_str!("tiles/listed.wgsl")
         .replace("OIT_LOOP", way.trim_end())
         .replace("OIT_HIDDEN", &format!("{HIDDEN:?}"))
-        .replace("OIT_LEAST_WEIGHT", &format!("{LEAST_WEIGHT:?}"))
+        .replace("OIT_LEAST_WEIGHT", &format!("{MIN_WEIGHT:?}"))
         .replace("OIT_ROW", ROW)
         .replace("OIT_KIND", if hiding { "1u" } else { "0u" })
 }
@@ -280,7 +362,14 @@ pub fn render(
     depth_range: Option<(f32, f32)>,
     background: [f32; 3],
 ) -> Result<Rendered, GpuError> {
-    TilePasses::new(gpu, list, method, method.depth_range(list, planes, depth_range)?, background)?.render(gpu, Skip::Exact)
+    TilePasses::new(
+        gpu,
+        list,
+        method,
+        method.depth_range(list, planes, depth_range)?,
+        background,
+    )?
+    .render(gpu, Skip::Exact)
 }
 
 #[cfg(test)]
@@ -308,7 +397,11 @@ mod tests {
     /// Pixels of the list, counted here.
     fn expected(list: &FragmentList, known: impl Fn(&[f32]) -> bool) -> PixelCounts {
         let known = (0..list.pixels()).filter(|&p| known(list.pixel(p).view_z)).count() as u32;
-        PixelCounts { network: list.pixels() as u32 - known, hiding: 0, known }
+        PixelCounts {
+            network: list.pixels() as u32 - known,
+            hiding: 0,
+            known,
+        }
     }
 
     /// With the pixels told apart and without: the same bits, and the lists hold what a count here says. The sizes are no multiples of 8.
@@ -322,11 +415,18 @@ mod tests {
                 let (plain, apart) = (shaded(gpu, &passes, Skip::None), shaded(gpu, &passes, Skip::Exact));
                 assert!(plain == apart, "{name}, {network}");
                 let counts = passes.counts(gpu).unwrap();
-                assert_eq!(counts, expected(&list, |v| v.len() <= 4 || v.iter().all(|x| *x == v[0])), "{name}, {network}");
+                assert_eq!(
+                    counts,
+                    expected(&list, |v| v.len() <= 4 || v.iter().all(|x| *x == v[0])),
+                    "{name}, {network}"
+                );
                 assert!(counts.network > 0 && counts.known > 0, "{counts:?}");
                 let asked: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 4).sum();
                 let found = passes.asked(gpu).unwrap() as usize;
-                assert!(found <= asked && found * 100 >= asked * 98, "{name}, {network}: {found} of {asked}");
+                assert!(
+                    found <= asked && found * 100 >= asked * 98,
+                    "{name}, {network}: {found} of {asked}"
+                );
             }
         }
     }
@@ -336,7 +436,10 @@ mod tests {
     fn known_pixels_are_shaded_by_the_short_form() {
         let Some(gpu) = gpu() else { return };
         let (list, method) = (built_in("teapots", 64), shader(&model("small")));
-        let wrong = MethodShader { source: method.source.replace("fn oit_short_weight(", "fn oit_right_weight(") + WRONG, ..method.clone() };
+        let wrong = MethodShader {
+            source: method.source.replace("fn oit_short_weight(", "fn oit_right_weight(") + WRONG,
+            ..method.clone()
+        };
         const WRONG: &str = "\nfn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 { return 0.5 * oit_right_weight(f, p) + 0.5; }\n";
         let passes = passes(gpu, &list, &wrong);
         let (plain, apart) = (shaded(gpu, &passes, Skip::None), shaded(gpu, &passes, Skip::Exact));
@@ -364,22 +467,40 @@ mod tests {
                 let of = |method: &MethodShader, skip| {
                     let passes = passes(gpu, &list, method);
                     passes.run(gpu, skip).unwrap();
-                    (image(&list, &passes.image(gpu).unwrap()), passes.asked(gpu).unwrap(), passes.counts(gpu).unwrap())
+                    (
+                        image(&list, &passes.image(gpu).unwrap()),
+                        passes.asked(gpu).unwrap(),
+                        passes.counts(gpu).unwrap(),
+                    )
                 };
                 let ((none, ..), (_, exact, _)) = (of(&method, Skip::None), of(&method, Skip::Exact));
                 let (visible, asked, counts) = of(&method, Skip::Visible);
                 let worst = |a: &Image| differences(a, &none)[list.pixels() - 1];
                 let looks = flip(&none, &visible).unwrap().mean();
-                println!("{name}, {network}: {counts:?}, asked {exact} and {asked}, change {:.1e}, FLIP {looks:.1e}", worst(&visible));
-                assert!(worst(&visible) <= 1.0 / 512.0 && looks <= 5e-4 && asked <= exact, "{name}, {network}");
+                println!(
+                    "{name}, {network}: {counts:?}, asked {exact} and {asked}, change {:.1e}, FLIP {looks:.1e}",
+                    worst(&visible)
+                );
+                assert!(
+                    worst(&visible) <= 1.0 / 512.0 && looks <= 5e-4 && asked <= exact,
+                    "{name}, {network}"
+                );
                 assert!(asked * 10 < exact * 9 || name != "foliage");
                 let neural = Neural::new(mlp).with_skip(Skip::Visible);
                 let accumulated = neural.accumulate(&list, Context::default()).unwrap();
-                let cpu = crate::evaluate::image::of_method(&list, &*accumulated, &weights(&list, &*accumulated), GREY.map(f64::from)).unwrap();
+                let cpu = crate::evaluate::image::of_method(
+                    &list,
+                    &*accumulated,
+                    &weights(&list, &*accumulated),
+                    GREY.map(f64::from),
+                )
+                .unwrap();
                 // Of hair two f32 passes on the CPU are 2e-3 apart.
                 assert!(agree(&visible, &cpu) || name == "hair", "{name}, {network}");
                 if counts.hiding > 0 {
-                    controls += usize::from(worst(&of(&MethodShader { source: bold, ..method }, Skip::Visible).0) > 1.0 / 512.0);
+                    controls += usize::from(
+                        worst(&of(&MethodShader { source: bold, ..method }, Skip::Visible).0) > 1.0 / 512.0,
+                    );
                 }
             }
         }
@@ -391,7 +512,8 @@ mod tests {
     #[test]
     fn faint_pixels_need_no_network() {
         let Some(gpu) = gpu() else { return };
-        let pixel = |most: f32| -> Vec<(f32, f32)> { (0..20).map(|i| (2.0 + (i * 7 % 20) as f32, most / 20.0)).collect() };
+        let pixel =
+            |most: f32| -> Vec<(f32, f32)> { (0..20).map(|i| (2.0 + (i * 7 % 20) as f32, most / 20.0)).collect() };
         let list = |most: f32| few(8, &vec![&pixel(most)[..]; 64]);
         for bias in [-40.0, 0.0, 40.0] {
             let method = shader(&biased("small", bias));
@@ -401,7 +523,10 @@ mod tests {
                     passes.run(gpu, skip).unwrap();
                     image(list, &passes.image(gpu).unwrap())
                 };
-                (differences(&of(Skip::None), &of(Skip::Visible))[63], passes.asked(gpu).unwrap())
+                (
+                    differences(&of(Skip::None), &of(Skip::Visible))[63],
+                    passes.asked(gpu).unwrap(),
+                )
             };
             let (worst, asked) = changed(&method, &list(0.06));
             assert!(worst <= 1.0 / 512.0 && asked == 0, "{worst} {asked}");
@@ -423,7 +548,9 @@ mod tests {
     #[test]
     fn doubtful_pixels_are_asked_about() {
         let Some(gpu) = gpu() else { return };
-        let pixel: Vec<(f32, f32)> = (0..40).map(|i| (if i < 20 { 2.0 + 0.01 * i as f32 } else { 40.0 + i as f32 }, 0.45)).collect();
+        let pixel: Vec<(f32, f32)> = (0..40)
+            .map(|i| (if i < 20 { 2.0 + 0.01 * i as f32 } else { 40.0 + i as f32 }, 0.45))
+            .collect();
         let list = few(8, &vec![&pixel[..]; 64]);
         let asked = |bias: f32| {
             let passes = passes(gpu, &list, &shader(&biased("recommended", bias)));
@@ -435,7 +562,10 @@ mod tests {
         let (doubtful, same) = asked(40.0);
         let (usual, _) = asked(0.0);
         println!("{doubtful} and {usual} of {}", list.len());
-        assert!(same && doubtful >= list.len() as u64 && usual < list.len() as u64 * 3 / 4, "{doubtful} {usual}");
+        assert!(
+            same && doubtful >= list.len() as u64 && usual < list.len() as u64 * 3 / 4,
+            "{doubtful} {usual}"
+        );
     }
 
     /// A method without a short form runs its own wherever there is a fragment.
@@ -443,7 +573,10 @@ mod tests {
     fn methods_without_a_short_form_skip_empty_pixels() {
         let Some(gpu) = gpu() else { return };
         let (list, method) = (built_in("teapots", 64), shader(&model("small")));
-        let bare = MethodShader { source: method.source.replace("oit_short_weight", "oit_unknown"), ..method };
+        let bare = MethodShader {
+            source: method.source.replace("oit_short_weight", "oit_unknown"),
+            ..method
+        };
         let passes = passes(gpu, &list, &bare);
         assert!(shaded(gpu, &passes, Skip::None) == shaded(gpu, &passes, Skip::Exact));
         let counts = passes.counts(gpu).unwrap();
@@ -462,7 +595,10 @@ mod tests {
         let found = image(&list, &render(&poor, &method, &list, None, None, GREY).unwrap().pixels);
         assert!(agree(&found, &cpu(&mlp, &list)));
         if gpu.blends_f32() {
-            let drawn = image(&list, &pipeline::render(gpu, &method, &list, None, None, GREY).unwrap().pixels);
+            let drawn = image(
+                &list,
+                &pipeline::render(gpu, &method, &list, None, None, GREY).unwrap().pixels,
+            );
             let d = differences(&found, &drawn);
             assert!(d[d.len() - 1] <= 1e-5, "{:e}", d[d.len() - 1]);
         }
@@ -477,6 +613,9 @@ mod tests {
         let d = differences(&image(&list, &found.pixels), &cpu(&mlp, &list));
         assert!(d[11] <= 1e-6, "{:e}", d[11]);
         let nothing = few(2, &[&[], &[]]);
-        assert_eq!(render(gpu, &shader(&mlp), &nothing, None, None, GREY).unwrap().pixels, [GREY; 2]);
+        assert_eq!(
+            render(gpu, &shader(&mlp), &nothing, None, None, GREY).unwrap().pixels,
+            [GREY; 2]
+        );
     }
 }

@@ -70,7 +70,14 @@ struct Layer {
 
 impl Layer {
     fn of(dense: &Dense) -> Self {
-        Self { weights: dense.weights.chunks_exact(dense.outputs()).map(<[f32]>::to_vec).collect(), biases: dense.biases.clone() }
+        Self {
+            weights: dense
+                .weights
+                .chunks_exact(dense.outputs())
+                .map(<[f32]>::to_vec)
+                .collect(),
+            biases: dense.biases.clone(),
+        }
     }
 }
 
@@ -83,7 +90,8 @@ fn dense(number: usize, weights: &[Vec<f32>], biases: Vec<f32>) -> Result<Dense,
             weights[row].len()
         ));
     }
-    Dense::new(weights.len(), outputs, weights.concat(), biases).map_err(|e| e.to_string().replacen("layer 1", &format!("layer {number}"), 1))
+    Dense::new(weights.len(), outputs, weights.concat(), biases)
+        .map_err(|e| e.to_string().replacen("layer 1", &format!("layer {number}"), 1))
 }
 
 /// The text of a model file.
@@ -111,24 +119,45 @@ pub fn to_json(mlp: &Mlp) -> String {
 /// # Errors
 /// [`ModelError`].
 pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
-    let not = |reason: String| ModelError::NotAModel { path: path.to_owned(), reason };
-    let wrong = |reason: String| ModelError::Content { path: path.to_owned(), reason };
+    let not = |reason: String| ModelError::NotAModel {
+        path: path.to_owned(),
+        reason,
+    };
+    let wrong = |reason: String| ModelError::Content {
+        path: path.to_owned(),
+        reason,
+    };
     let head: serde_json::Value = serde_json::from_slice(text).map_err(|e| not(e.to_string()))?;
     if head.get("format").and_then(|f| f.as_str()) != Some(FORMAT) {
-        return Err(not(format!("'format' is not '{FORMAT}'; weights of another program come in by 'nmt import'")));
+        return Err(not(format!(
+            "'format' is not '{FORMAT}'; weights of another program come in by 'nmt import'"
+        )));
     }
     match head.get("version").and_then(serde_json::Value::as_u64) {
         Some(version) if version == u64::from(MODEL_VERSION) => {}
-        Some(version) => return Err(ModelError::Version { path: path.to_owned(), version }),
+        Some(version) => {
+            return Err(ModelError::Version {
+                path: path.to_owned(),
+                version,
+            });
+        }
         None => return Err(not("'version' is missing or not a whole number".to_owned())),
     }
     let document: Document = serde_json::from_slice(text).map_err(|e| not(e.to_string()))?;
     let set = document.feature_set;
     if document.features != set.columns() {
-        return Err(wrong(format!("features {:?} are not those of the set '{}', {:?}", document.features, set.name(), set.columns())));
+        return Err(wrong(format!(
+            "features {:?} are not those of the set '{}', {:?}",
+            document.features,
+            set.name(),
+            set.columns()
+        )));
     }
     if document.moment_depth != set.moment_depth() || document.output != set.output() {
-        return Err(wrong(format!("moment_depth or output is not that of the feature set '{}'", set.name())));
+        return Err(wrong(format!(
+            "moment_depth or output is not that of the feature set '{}'",
+            set.name()
+        )));
     }
     if document.hidden_activation != "relu" || document.output_activation != "sigmoid" {
         return Err(wrong(format!(
@@ -140,9 +169,14 @@ pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
     for (index, layer) in document.layers.into_iter().enumerate() {
         layers.push(dense(index + 1, &layer.weights, layer.biases).map_err(wrong)?);
     }
-    let mlp = Mlp::new(document.name, set, layers, document.provenance).map_err(|e: ShapeError| wrong(e.to_string()))?;
+    let mlp =
+        Mlp::new(document.name, set, layers, document.provenance).map_err(|e: ShapeError| wrong(e.to_string()))?;
     if mlp.sizes() != document.layer_sizes {
-        return Err(wrong(format!("layer_sizes {:?} are not those of the weights, {:?}", document.layer_sizes, mlp.sizes())));
+        return Err(wrong(format!(
+            "layer_sizes {:?} are not those of the weights, {:?}",
+            document.layer_sizes,
+            mlp.sizes()
+        )));
     }
     Ok(mlp)
 }
@@ -182,14 +216,22 @@ pub fn import(path: &Path, name: &str, feature_set: FeatureSet) -> Result<Mlp, M
         #[serde(alias = "bias")]
         biases: Vec<f32>,
     }
-    let wrong = |reason: String| ModelError::Content { path: path.to_owned(), reason };
-    let foreign: Foreign =
-        serde_json::from_slice(&read(path)?).map_err(|e| ModelError::NotAModel { path: path.to_owned(), reason: e.to_string() })?;
+    let wrong = |reason: String| ModelError::Content {
+        path: path.to_owned(),
+        reason,
+    };
+    let foreign: Foreign = serde_json::from_slice(&read(path)?).map_err(|e| ModelError::NotAModel {
+        path: path.to_owned(),
+        reason: e.to_string(),
+    })?;
     let mut layers = Vec::new();
     for (index, layer) in foreign.layers.into_iter().enumerate() {
         layers.push(dense(index + 1, &layer.weights, layer.biases).map_err(wrong)?);
     }
-    let provenance = Provenance { source: format!("imported: {}", foreign.source), ..Provenance::default() };
+    let provenance = Provenance {
+        source: format!("imported: {}", foreign.source),
+        ..Provenance::default()
+    };
     Mlp::new(name, feature_set, layers, provenance).map_err(|e| wrong(e.to_string()))
 }
 

@@ -3,7 +3,7 @@
 //! Rows lie side by side in [`Lanes`], a tile of T of them together; a layer is computed for a few units and a few vectors of rows at a time, so that every weight
 //! and every input that is loaded serves several fused multiply-adds from registers.
 
-use crate::features::MOST_LOG_ABSORBANCE;
+use crate::features::MAX_LOG_ABSORBANCE;
 use crate::numeric::lanes::{LANES, Lanes, exp};
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
@@ -33,7 +33,10 @@ impl Padded {
     /// Layers of these (inputs, outputs), the last of one output.
     pub fn new(shapes: &[(usize, usize)]) -> Self {
         let hidden = shapes[..shapes.len() - 1].iter().map(|s| s.1.next_multiple_of(UNITS));
-        Self { sizes: std::iter::once(shapes[0].0).chain(hidden).collect(), shapes: shapes.to_vec() }
+        Self {
+            sizes: std::iter::once(shapes[0].0).chain(hidden).collect(),
+            shapes: shapes.to_vec(),
+        }
     }
 
     /// Number of inputs, then of every hidden layer's units with the padding.
@@ -110,7 +113,7 @@ pub fn hidden_layers<S: Simd>(simd: S, sizes: &[usize], parameters: &[f32], rows
 #[inline(always)]
 pub fn absorbance<S: Simd>(simd: S, log: f32x16<S>, offset: f32) -> f32x16<S> {
     let splat = |x: f32| f32x16::splat(simd, x);
-    (exp(simd, log.min(splat(MOST_LOG_ABSORBANCE))) - splat(offset)).max(splat(0.0))
+    (exp(simd, log.min(splat(MAX_LOG_ABSORBANCE))) - splat(offset)).max(splat(0.0))
 }
 
 /// Whether the registers of this level hold a whole vector of sixteen: then there are 32 of them, and larger blocks pay.
@@ -133,7 +136,15 @@ pub fn hidden<S: Simd>(simd: S, inputs: usize, outputs: usize, w: &[f32], b: &[f
 }
 
 #[inline(always)]
-fn hidden_block<S: Simd, const O: usize, const V: usize>(simd: S, inputs: usize, outputs: usize, w: &[f32], b: &[f32], x: &[Row], y: &mut [Row]) {
+fn hidden_block<S: Simd, const O: usize, const V: usize>(
+    simd: S,
+    inputs: usize,
+    outputs: usize,
+    w: &[f32],
+    b: &[f32],
+    x: &[Row],
+    y: &mut [Row],
+) {
     let (x, y) = (&x[..inputs], &mut y[..outputs]);
     let zero = f32x16::splat(simd, 0.0);
     for v in (0..TILE).step_by(V) {
@@ -184,7 +195,10 @@ mod tests {
             let padded = network.pad(&plain);
             assert_eq!((padded.len(), network.unpad(&padded)), (network.count(), plain));
             assert_eq!(padded.iter().filter(|p| **p == 0.0).count(), network.count() - count);
-            assert!(network.sizes()[1..].iter().all(|s| s % UNITS == 0) && network.rows() == network.sizes().iter().sum::<usize>());
+            assert!(
+                network.sizes()[1..].iter().all(|s| s % UNITS == 0)
+                    && network.rows() == network.sizes().iter().sum::<usize>()
+            );
         }
     }
 }

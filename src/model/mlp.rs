@@ -2,7 +2,7 @@
 
 use super::Provenance;
 use super::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden_layers, logit};
-use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
+use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use crate::numeric::Real;
 use crate::numeric::lanes::{self, LANES, Lanes};
 use fearless_simd::prelude::*;
@@ -10,7 +10,7 @@ use fearless_simd::{Level, dispatch};
 use rayon::prelude::*;
 
 /// Most units of one layer.
-pub const MOST_UNITS: usize = 4096;
+pub const MAX_UNITS: usize = 4096;
 
 /// One fully connected layer: y = x W + b.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,13 +27,15 @@ pub struct Dense {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ShapeError {
     /// The name cannot be that of a file.
-    #[error("name '{0}': only letters, digits, '-', '_' and '.' may stand in it, not first a '.', and at most 64 of them")]
+    #[error(
+        "name '{0}': only letters, digits, '-', '_' and '.' may stand in it, not first a '.', and at most 64 of them"
+    )]
     Name(String),
     /// There is no layer.
     #[error("a network needs at least one layer")]
     NoLayers,
     /// A layer is empty or absurdly wide.
-    #[error("layer {layer} has {inputs} inputs and {outputs} outputs; each must be from 1 to {MOST_UNITS}")]
+    #[error("layer {layer} has {inputs} inputs and {outputs} outputs; each must be from 1 to {MAX_UNITS}")]
     Width {
         /// The layer, from 1.
         layer: usize,
@@ -90,21 +92,39 @@ impl Dense {
     /// # Errors
     /// [`ShapeError::Width`], [`ShapeError::Length`]; layers are numbered from 1 by [`Mlp::new`], and named 1 here.
     pub fn new(inputs: usize, outputs: usize, weights: Vec<f32>, biases: Vec<f32>) -> Result<Self, ShapeError> {
-        let dense = Self { inputs, outputs, weights, biases };
+        let dense = Self {
+            inputs,
+            outputs,
+            weights,
+            biases,
+        };
         dense.check(1).map(|()| dense)
     }
 
     fn check(&self, layer: usize) -> Result<(), ShapeError> {
         let Self { inputs, outputs, .. } = *self;
-        if !(1..=MOST_UNITS).contains(&inputs) || !(1..=MOST_UNITS).contains(&outputs) {
+        if !(1..=MAX_UNITS).contains(&inputs) || !(1..=MAX_UNITS).contains(&outputs) {
             return Err(ShapeError::Width { layer, inputs, outputs });
         }
-        for (name, values, expected) in [("weights", &self.weights, inputs * outputs), ("biases", &self.biases, outputs)] {
+        for (name, values, expected) in [
+            ("weights", &self.weights, inputs * outputs),
+            ("biases", &self.biases, outputs),
+        ] {
             if values.len() != expected {
-                return Err(ShapeError::Length { layer, name, found: values.len(), expected });
+                return Err(ShapeError::Length {
+                    layer,
+                    name,
+                    found: values.len(),
+                    expected,
+                });
             }
             if let Some(index) = values.iter().position(|v| !v.is_finite()) {
-                return Err(ShapeError::NotFinite { layer, name, index, value: values[index] });
+                return Err(ShapeError::NotFinite {
+                    layer,
+                    name,
+                    index,
+                    value: values[index],
+                });
             }
         }
         Ok(())
@@ -144,7 +164,11 @@ pub struct Mlp {
 /// [`ShapeError::Name`].
 pub fn check_name(name: &str) -> Result<(), ShapeError> {
     let allowed = name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
-    if allowed && (1..=64).contains(&name.len()) && !name.starts_with('.') { Ok(()) } else { Err(ShapeError::Name(name.to_owned())) }
+    if allowed && (1..=64).contains(&name.len()) && !name.starts_with('.') {
+        Ok(())
+    } else {
+        Err(ShapeError::Name(name.to_owned()))
+    }
 }
 
 impl Mlp {
@@ -152,21 +176,35 @@ impl Mlp {
     ///
     /// # Errors
     /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature set to one output, or a number is not finite.
-    pub fn new(name: impl Into<String>, feature_set: FeatureSet, layers: Vec<Dense>, provenance: Provenance) -> Result<Self, ShapeError> {
+    pub fn new(
+        name: impl Into<String>,
+        feature_set: FeatureSet,
+        layers: Vec<Dense>,
+        provenance: Provenance,
+    ) -> Result<Self, ShapeError> {
         let name = name.into();
         check_name(&name)?;
         let mut expected = feature_set.width();
         for (index, dense) in layers.iter().enumerate() {
             dense.check(index + 1)?;
             if dense.inputs != expected {
-                return Err(ShapeError::Chain { layer: index + 1, found: dense.inputs, expected });
+                return Err(ShapeError::Chain {
+                    layer: index + 1,
+                    found: dense.inputs,
+                    expected,
+                });
             }
             expected = dense.outputs;
         }
         match layers.last() {
             None => Err(ShapeError::NoLayers),
             Some(last) if last.outputs != 1 => Err(ShapeError::Outputs(last.outputs)),
-            Some(_) => Ok(Self { name, feature_set, layers, provenance }),
+            Some(_) => Ok(Self {
+                name,
+                feature_set,
+                layers,
+                provenance,
+            }),
         }
     }
 
@@ -187,7 +225,9 @@ impl Mlp {
 
     /// Number of inputs, of every hidden layer's units and of outputs: `[7, 32, 16, 1]`.
     pub fn sizes(&self) -> Vec<usize> {
-        std::iter::once(self.layers[0].inputs).chain(self.layers.iter().map(|l| l.outputs)).collect()
+        std::iter::once(self.layers[0].inputs)
+            .chain(self.layers.iter().map(|l| l.outputs))
+            .collect()
     }
 
     /// Its sizes as text: "7-32-16-1".
@@ -227,24 +267,28 @@ impl Mlp {
         let mut out = vec![R::ZERO; rows.len() / width];
         // One task takes enough rows to outweigh handing it over.
         const TASK: usize = 64 * LANES;
-        out.par_chunks_mut(TASK).zip(rows.par_chunks(TASK * width)).for_each(|(out, rows)| {
-            for (out, rows) in out.chunks_mut(LANES).zip(rows.chunks(LANES * width)) {
-                if out.len() == LANES {
-                    self.forward_block::<R, LANES>(rows, out);
-                } else {
-                    for (out, row) in out.iter_mut().zip(rows.chunks_exact(width)) {
-                        self.forward_block::<R, 1>(row, std::slice::from_mut(out));
+        out.par_chunks_mut(TASK)
+            .zip(rows.par_chunks(TASK * width))
+            .for_each(|(out, rows)| {
+                for (out, rows) in out.chunks_mut(LANES).zip(rows.chunks(LANES * width)) {
+                    if out.len() == LANES {
+                        self.forward_block::<R, LANES>(rows, out);
+                    } else {
+                        for (out, row) in out.iter_mut().zip(rows.chunks_exact(width)) {
+                            self.forward_block::<R, 1>(row, std::slice::from_mut(out));
+                        }
                     }
                 }
-            }
-        });
+            });
         out
     }
 
     /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still agree to the bit.
     fn forward_block<R: Real, const L: usize>(&self, rows: &[f32], out: &mut [R]) {
         let width = self.layers[0].inputs;
-        let mut x: Vec<[R; L]> = (0..width).map(|i| std::array::from_fn(|lane| R::from_f32(rows[lane * width + i]))).collect();
+        let mut x: Vec<[R; L]> = (0..width)
+            .map(|i| std::array::from_fn(|lane| R::from_f32(rows[lane * width + i])))
+            .collect();
         let mut y: Vec<[R; L]> = Vec::new();
         for (index, dense) in self.layers.iter().enumerate() {
             y.clear();
@@ -270,7 +314,7 @@ impl Mlp {
             *out = match answer {
                 Answer::Sigmoid => s,
                 Answer::Fraction { column, offset } => {
-                    let log = R::from_f32(rows[lane * width + column].min(MOST_LOG_ABSORBANCE));
+                    let log = R::from_f32(rows[lane * width + column].min(MAX_LOG_ABSORBANCE));
                     let absorbance = (log.exp() - R::from_f32(offset)).max(R::ZERO);
                     // e^−x is lost in rounding long before x = 100, and stays a normal number.
                     (-(absorbance * s).min(R::from_f64(80.0))).exp()
@@ -301,7 +345,10 @@ impl Mlp {
         const TASK: usize = 8 * TILE * LANES;
         out.par_chunks_mut(TASK)
             .zip(rows.par_chunks(TASK * width))
-            .for_each_init(|| vec![ZEROS; network.padded.rows()], |work, (out, rows)| network.run(level, rows, out, work));
+            .for_each_init(
+                || vec![ZEROS; network.padded.rows()],
+                |work, (out, rows)| network.run(level, rows, out, work),
+            );
         out
     }
 }
@@ -316,8 +363,16 @@ struct Batched {
 impl Batched {
     fn new(mlp: &Mlp) -> Self {
         let padded = Padded::new(&mlp.layers.iter().map(|l| (l.inputs, l.outputs)).collect::<Vec<_>>());
-        let plain: Vec<f32> = mlp.layers.iter().flat_map(|l| l.weights.iter().chain(&l.biases).copied()).collect();
-        Self { parameters: padded.pad(&plain), padded, answer: mlp.feature_set.answer() }
+        let plain: Vec<f32> = mlp
+            .layers
+            .iter()
+            .flat_map(|l| l.weights.iter().chain(&l.biases).copied())
+            .collect();
+        Self {
+            parameters: padded.pad(&plain),
+            padded,
+            answer: mlp.feature_set.answer(),
+        }
     }
 
     fn run(&self, level: Level, rows: &[f32], out: &mut [f32], work: &mut [Row]) {
@@ -376,7 +431,10 @@ impl Tiled {
 
     /// The network.
     pub fn new(mlp: &Mlp) -> Self {
-        Self { network: Batched::new(mlp), level: Level::new() }
+        Self {
+            network: Batched::new(mlp),
+            level: Level::new(),
+        }
     }
 
     /// What one thread works in.
@@ -428,7 +486,10 @@ pub(crate) mod tests {
         let mut first = vec![0.0; 14];
         (first[0], first[2], first[4]) = (1.0, -1.0, 1.0); // unit 0: f0 − f1 + f2
         first[1] = -1.0; // unit 1: −f0, cut off by ReLU
-        let layers = vec![Dense::new(7, 2, first, vec![0.0, 0.0]).unwrap(), Dense::new(2, 1, vec![0.5, 100.0], vec![-1.0]).unwrap()];
+        let layers = vec![
+            Dense::new(7, 2, first, vec![0.0, 0.0]).unwrap(),
+            Dense::new(2, 1, vec![0.5, 100.0], vec![-1.0]).unwrap(),
+        ];
         let mlp = Mlp::new("hand", FeatureSet::Paper, layers, Provenance::default()).unwrap();
         // 0.5 · 2 − 1 = 0, and the sigmoid of 0 is 1/2.
         assert_eq!(mlp.forward::<f64>(&[1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0]), 0.5);
@@ -460,7 +521,11 @@ pub(crate) mod tests {
                 let rows: Vec<f32> = (0..7 * 5000).map(|_| rng.random_range(-3.0..3.0)).collect();
                 let exact = mlp.forward_batch::<f64>(&rows);
                 let worst = |found: &[f32]| {
-                    found.iter().zip(&exact).map(|(f, e)| (f64::from(*f) - e).abs()).fold(0.0, |m: f64, e| if e.is_nan() { 9.0 } else { m.max(e) })
+                    found
+                        .iter()
+                        .zip(&exact)
+                        .map(|(f, e)| (f64::from(*f) - e).abs())
+                        .fold(0.0, |m: f64, e| if e.is_nan() { 9.0 } else { m.max(e) })
                 };
                 let all = mlp.predict(&rows);
                 let bar = 3.0 * worst(&mlp.forward_batch::<f32>(&rows)).max(6e-8);
@@ -486,7 +551,12 @@ pub(crate) mod tests {
         let mlp = random_mlp(&[32, 16], 3);
         let mut rng = stream(4, 0, 0);
         let rows: Vec<f32> = (0..7 * 500).map(|_| rng.random_range(-3.0..3.0)).collect();
-        let worst = |a: &[f32], b: &[f64]| a.iter().zip(b).map(|(a, b)| (f64::from(*a) - b).abs()).fold(0.0, f64::max);
+        let worst = |a: &[f32], b: &[f64]| {
+            a.iter()
+                .zip(b)
+                .map(|(a, b)| (f64::from(*a) - b).abs())
+                .fold(0.0, f64::max)
+        };
         let exact = mlp.forward_batch::<f64>(&rows);
         assert!(worst(&mlp.forward_batch(&rows), &exact) < 5e-6);
         let mut perturbed = mlp.clone();
@@ -496,8 +566,17 @@ pub(crate) mod tests {
 
     #[test]
     fn shapes_are_validated() {
-        let dense = |i: usize, o: usize| Dense { inputs: i, outputs: o, weights: vec![0.0; i * o], biases: vec![0.0; o] };
-        let error = |layers| Mlp::new("x", FeatureSet::Paper, layers, Provenance::default()).unwrap_err().to_string();
+        let dense = |i: usize, o: usize| Dense {
+            inputs: i,
+            outputs: o,
+            weights: vec![0.0; i * o],
+            biases: vec![0.0; o],
+        };
+        let error = |layers| {
+            Mlp::new("x", FeatureSet::Paper, layers, Provenance::default())
+                .unwrap_err()
+                .to_string()
+        };
         let mut not_finite = dense(7, 1);
         not_finite.weights[3] = f32::NAN;
         let mut short = dense(7, 1);
@@ -511,7 +590,9 @@ pub(crate) mod tests {
                 error(vec![dense(7, 0)]),
                 error(vec![not_finite]),
                 error(vec![short]),
-                Mlp::new("../x", FeatureSet::Paper, vec![dense(7, 1)], Provenance::default()).unwrap_err().to_string(),
+                Mlp::new("../x", FeatureSet::Paper, vec![dense(7, 1)], Provenance::default())
+                    .unwrap_err()
+                    .to_string(),
             ]
             .join("\n")
         );

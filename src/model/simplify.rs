@@ -53,7 +53,10 @@ impl Pruned {
             (!units.is_empty()).then(|| format!("layer {} without {}; ", l + 1, list.join(", ")))
         };
         let layers: String = self.units.iter().enumerate().filter_map(layer).collect();
-        format!("{layers}silent on {} rows; {} multiply-adds before", self.rows, self.of_multiply_adds)
+        format!(
+            "{layers}silent on {} rows; {} multiply-adds before",
+            self.rows, self.of_multiply_adds
+        )
     }
 
     /// What [`Self::to_text`] wrote.
@@ -69,7 +72,8 @@ impl Pruned {
                     ["layer", number, "without", list] => {
                         let layer: usize = number.parse().ok().filter(|n| (1..=64).contains(n))?;
                         pruned.units.resize(pruned.units.len().max(layer), Vec::new());
-                        pruned.units[layer - 1] = list.split(", ").map(|unit| unit.parse().ok()).collect::<Option<_>>()?;
+                        pruned.units[layer - 1] =
+                            list.split(", ").map(|unit| unit.parse().ok()).collect::<Option<_>>()?;
                     }
                     ["silent", "on", rows, "rows"] => pruned.rows = rows.parse().ok()?,
                     [number, "multiply-adds", "before"] => pruned.of_multiply_adds = number.parse().ok()?,
@@ -139,23 +143,43 @@ pub fn activity(mlp: &Mlp, rows: &[f32]) -> Activity {
     let width = mlp.feature_set().width();
     assert_eq!(rows.len() % width, 0, "whole rows of {width} features");
     let sizes = mlp.sizes();
-    let none = || sizes[1..sizes.len() - 1].iter().map(|&n| vec![0u64; n]).collect::<Vec<_>>();
+    let none = || {
+        sizes[1..sizes.len() - 1]
+            .iter()
+            .map(|&n| vec![0u64; n])
+            .collect::<Vec<_>>()
+    };
     let add = |mut a: Vec<Vec<u64>>, b: Vec<Vec<u64>>| {
-        a.iter_mut().flatten().zip(b.into_iter().flatten()).for_each(|(a, b)| *a += b);
+        a.iter_mut()
+            .flatten()
+            .zip(b.into_iter().flatten())
+            .for_each(|(a, b)| *a += b);
         a
     };
     let count = |mut fired: Vec<Vec<u64>>, row: &[f32]| {
-        walk(mlp, row, |layer, values| fired[layer].iter_mut().zip(values).for_each(|(n, &v)| *n += u64::from(v > 0.0)));
+        walk(mlp, row, |layer, values| {
+            fired[layer]
+                .iter_mut()
+                .zip(values)
+                .for_each(|(n, &v)| *n += u64::from(v > 0.0))
+        });
         fired
     };
     let fired = rows.par_chunks(width).fold(none, count).reduce(none, add);
-    Activity { rows: (rows.len() / width) as u64, fired }
+    Activity {
+        rows: (rows.len() / width) as u64,
+        fired,
+    }
 }
 
 /// Whether one of these units fires for a row of features: where not, a network without them gives the same bits.
 pub fn fires(mlp: &Mlp, units: &Units, row: &[f32]) -> bool {
     let mut any = false;
-    walk(mlp, row, |layer, values| any |= units.get(layer).is_some_and(|units| units.iter().any(|&u| values[u] > 0.0)));
+    walk(mlp, row, |layer, values| {
+        any |= units
+            .get(layer)
+            .is_some_and(|units| units.iter().any(|&u| values[u] > 0.0))
+    });
     any
 }
 
@@ -180,7 +204,10 @@ pub fn always_silent(mlp: &Mlp) -> Units {
             }
         }
         if silent == before {
-            break silent.into_iter().map(|s| (0..s.len()).filter(|&u| s[u]).collect()).collect();
+            break silent
+                .into_iter()
+                .map(|s| (0..s.len()).filter(|&u| s[u]).collect())
+                .collect();
         }
     }
 }
@@ -220,10 +247,16 @@ pub fn without_units(mlp: &Mlp, units: &Units) -> Result<Mlp, SimplifyError> {
         kept.push(left);
     }
     if let Some(l) = (hidden..units.len()).find(|&l| !units[l].is_empty()) {
-        return Err(SimplifyError::NoUnit { layer: l + 1, unit: units[l][0] });
+        return Err(SimplifyError::NoUnit {
+            layer: l + 1,
+            unit: units[l][0],
+        });
     }
     let layers = mlp.layers().iter().zip(kept.windows(2)).map(|(dense, kept)| {
-        let weights = kept[0].iter().flat_map(|&i| kept[1].iter().map(move |&o| dense.weight(i, o))).collect();
+        let weights = kept[0]
+            .iter()
+            .flat_map(|&i| kept[1].iter().map(move |&o| dense.weight(i, o)))
+            .collect();
         let biases = kept[1].iter().map(|&o| dense.biases[o]).collect();
         Dense::new(kept[0].len(), kept[1].len(), weights, biases)
     });
@@ -247,7 +280,10 @@ pub fn with_constant_features(mlp: &Mlp, constants: &[(usize, f32)]) -> Result<M
         if feature >= inputs {
             return Err(SimplifyError::NoFeature(feature));
         }
-        for (bias, w) in biases.iter_mut().zip(&mut first.weights[feature * outputs..][..outputs]) {
+        for (bias, w) in biases
+            .iter_mut()
+            .zip(&mut first.weights[feature * outputs..][..outputs])
+        {
             *bias += f64::from(std::mem::take(w)) * f64::from(value);
         }
     }
@@ -267,12 +303,25 @@ pub fn pruned(mlp: &Mlp, rows: &[f32]) -> Result<Mlp, SimplifyError> {
     let activity = activity(mlp, rows);
     let all = union(&exact, &activity.silent());
     // One unit of a layer stays.
-    let stays = |(l, units): (usize, Vec<usize>)| if units.len() == mlp.layers()[l].outputs() { units[1..].to_vec() } else { units };
+    let stays = |(l, units): (usize, Vec<usize>)| {
+        if units.len() == mlp.layers()[l].outputs() {
+            units[1..].to_vec()
+        } else {
+            units
+        }
+    };
     let units: Units = all.into_iter().enumerate().map(stays).collect();
-    let observed = units.iter().enumerate().any(|(l, units)| units.iter().any(|u| !exact[l].contains(u)));
+    let observed = units
+        .iter()
+        .enumerate()
+        .any(|(l, units)| units.iter().any(|u| !exact[l].contains(u)));
     let mut left = without_units(mlp, &units)?;
     let rows = if observed { activity.rows } else { 0 };
-    left.provenance.pruned = Some(Pruned { units, rows, of_multiply_adds: mlp.multiply_adds() });
+    left.provenance.pruned = Some(Pruned {
+        units,
+        rows,
+        of_multiply_adds: mlp.multiply_adds(),
+    });
     Ok(left)
 }
 
@@ -301,8 +350,13 @@ mod tests {
     }
 
     fn bits(mlp: &Mlp, rows: &[f32]) -> Vec<u64> {
-        let single = mlp.forward_batch::<f32>(rows).into_iter().map(|t| u64::from(t.to_bits()));
-        single.chain(mlp.forward_batch::<f64>(rows).into_iter().map(f64::to_bits)).collect()
+        let single = mlp
+            .forward_batch::<f32>(rows)
+            .into_iter()
+            .map(|t| u64::from(t.to_bits()));
+        single
+            .chain(mlp.forward_batch::<f64>(rows).into_iter().map(f64::to_bits))
+            .collect()
     }
 
     /// Without silent units the answers keep their bits in both precisions. Controls: without a unit that fires they do not, and rows that make a silent
@@ -311,12 +365,18 @@ mod tests {
     fn silent_units_can_go() {
         let (mlp, rows) = (lazy(), rows(1, 4000));
         let activity = activity(&mlp, &rows);
-        assert_eq!((activity.rows, activity.fired[0].len(), activity.fired[1].len()), (4000, 12, 9));
+        assert_eq!(
+            (activity.rows, activity.fired[0].len(), activity.fired[1].len()),
+            (4000, 12, 9)
+        );
         let silent = activity.silent();
         assert!([2, 7, 11].iter().all(|u| silent[0].contains(u)) && silent[1].contains(&0) && silent[1].contains(&5));
         let left = pruned(&mlp, &rows).unwrap();
         let note = left.provenance.pruned.clone().unwrap();
-        assert_eq!((&note.units, note.rows, note.of_multiply_adds), (&silent, 4000, mlp.multiply_adds()));
+        assert_eq!(
+            (&note.units, note.rows, note.of_multiply_adds),
+            (&silent, 4000, mlp.multiply_adds())
+        );
         assert_eq!(left.sizes()[1..3], [12 - silent[0].len(), 9 - silent[1].len()]);
         assert!(left.multiply_adds() < mlp.multiply_adds());
         assert_eq!(bits(&left, &rows), bits(&mlp, &rows));
@@ -334,7 +394,10 @@ mod tests {
             different += usize::from(!same);
             assert!(same || fires(&mlp, &silent, row));
         }
-        assert!(outside > 500 && different > 100, "{outside} rows outside, {different} answers differ");
+        assert!(
+            outside > 500 && different > 100,
+            "{outside} rows outside, {different} answers differ"
+        );
         assert!(rows.chunks_exact(7).all(|row| !fires(&mlp, &silent, row)));
     }
 
@@ -355,10 +418,16 @@ mod tests {
         let mlp = Mlp::new("n", FeatureSet::Paper, layers, Provenance::default()).unwrap();
         assert_eq!(always_silent(&mlp), [vec![1], vec![0, 1], vec![2]]);
         let left = pruned(&mlp, &[]).unwrap();
-        assert_eq!((left.shape().as_str(), left.provenance.pruned.as_ref().unwrap().rows), ("7-3-1-2-1", 0));
+        assert_eq!(
+            (left.shape().as_str(), left.provenance.pruned.as_ref().unwrap().rows),
+            ("7-3-1-2-1", 0)
+        );
         let far: Vec<f32> = rows(3, 3000).iter().map(|x| 1e3 * x).collect();
         assert_eq!(bits(&left, &far), bits(&mlp, &far));
-        assert_eq!(always_silent(&random_mlp(&[8, 4], 1)), [vec![], vec![]] as [Vec<usize>; 2]);
+        assert_eq!(
+            always_silent(&random_mlp(&[8, 4], 1)),
+            [vec![], vec![]] as [Vec<usize>; 2]
+        );
     }
 
     #[test]
@@ -369,11 +438,20 @@ mod tests {
         let mlp = Mlp::new("n", FeatureSet::Paper, layers, Provenance::default()).unwrap();
         let rows = rows(4, 100);
         let left = pruned(&mlp, &rows).unwrap();
-        assert_eq!((left.shape().as_str(), left.provenance.pruned.as_ref().unwrap().count()), ("7-1-1", 2));
+        assert_eq!(
+            (left.shape().as_str(), left.provenance.pruned.as_ref().unwrap().count()),
+            ("7-1-1", 2)
+        );
         assert_eq!(bits(&left, &rows), bits(&mlp, &rows));
         assert_eq!(without_units(&mlp, &vec![vec![0, 1, 2]]).unwrap().shape(), "7-1-1");
-        assert_eq!(without_units(&mlp, &vec![vec![3]]), Err(SimplifyError::NoUnit { layer: 1, unit: 3 }));
-        assert_eq!(without_units(&mlp, &vec![vec![], vec![0]]), Err(SimplifyError::NoUnit { layer: 2, unit: 0 }));
+        assert_eq!(
+            without_units(&mlp, &vec![vec![3]]),
+            Err(SimplifyError::NoUnit { layer: 1, unit: 3 })
+        );
+        assert_eq!(
+            without_units(&mlp, &vec![vec![], vec![0]]),
+            Err(SimplifyError::NoUnit { layer: 2, unit: 0 })
+        );
     }
 
     /// Constant features in the biases: within 1e-6 of the whole network. Control: another value.
@@ -383,25 +461,49 @@ mod tests {
         let mut rows = rows(5, 1000);
         rows.chunks_exact_mut(7).for_each(|row| (row[1], row[4]) = (3.0, -0.25));
         let worst = |folded: &Mlp| {
-            let pairs = folded.forward_batch::<f64>(&rows).into_iter().zip(mlp.forward_batch::<f64>(&rows));
-            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, e| if e.is_nan() { 9.0 } else { m.max(e) })
+            let pairs = folded
+                .forward_batch::<f64>(&rows)
+                .into_iter()
+                .zip(mlp.forward_batch::<f64>(&rows));
+            pairs
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, |m: f64, e| if e.is_nan() { 9.0 } else { m.max(e) })
         };
         let folded = with_constant_features(&mlp, &[(1, 3.0), (4, -0.25)]).unwrap();
         assert!((0..16).all(|o| folded.layers()[0].weight(1, o) == 0.0 && folded.layers()[0].weight(4, o) == 0.0));
         assert!(worst(&folded) <= 1e-6);
         assert!(worst(&with_constant_features(&mlp, &[(1, 3.5), (4, -0.25)]).unwrap()) > 1e-3);
-        assert_eq!(with_constant_features(&mlp, &[(7, 0.0)]), Err(SimplifyError::NoFeature(7)));
+        assert_eq!(
+            with_constant_features(&mlp, &[(7, 0.0)]),
+            Err(SimplifyError::NoFeature(7))
+        );
         let layer = Dense::new(7, 1, vec![1.0; 7], vec![0.0]).unwrap();
         let ones = Mlp::new("n", FeatureSet::Paper, vec![layer], Provenance::default()).unwrap();
-        assert!(matches!(with_constant_features(&ones, &[(0, f32::MAX), (1, f32::MAX)]), Err(SimplifyError::Shape(_))));
+        assert!(matches!(
+            with_constant_features(&ones, &[(0, f32::MAX), (1, f32::MAX)]),
+            Err(SimplifyError::Shape(_))
+        ));
     }
 
     #[test]
     fn the_note_reads_back() {
-        let note = Pruned { units: vec![vec![3, 17], vec![], vec![5]], rows: 1_000_000, of_multiply_adds: 752 };
-        assert_eq!(note.to_text(), "layer 1 without 3, 17; layer 3 without 5; silent on 1000000 rows; 752 multiply-adds before");
+        let note = Pruned {
+            units: vec![vec![3, 17], vec![], vec![5]],
+            rows: 1_000_000,
+            of_multiply_adds: 752,
+        };
+        assert_eq!(
+            note.to_text(),
+            "layer 1 without 3, 17; layer 3 without 5; silent on 1000000 rows; 752 multiply-adds before"
+        );
         assert_eq!(Pruned::from_text(&note.to_text()).unwrap(), note);
-        for wrong in ["", "layer 0 without 1; silent on 1 rows", "layer 1 without x", "silent on many rows", "layer 1 without 1;silent"] {
+        for wrong in [
+            "",
+            "layer 0 without 1; silent on 1 rows",
+            "layer 1 without x",
+            "silent on many rows",
+            "layer 1 without 1;silent",
+        ] {
             assert!(Pruned::from_text(wrong).is_err(), "{wrong}");
         }
     }

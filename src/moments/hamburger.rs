@@ -48,7 +48,10 @@ impl Bias {
         let (strength, target) = match m {
             4 => (6e-5, [0.0, 0.628, 0.0, 0.628, 0.0, 0.0, 0.0, 0.0]),
             6 => (6e-4, [0.0, 0.5566, 0.0, 0.489, 0.0, 0.47869382, 0.0, 0.0]),
-            8 => (2.5e-3, [0.0, 0.42474916, 0.0, 0.22407803, 0.0, 0.15369231, 0.0, 0.12900441]),
+            8 => (
+                2.5e-3,
+                [0.0, 0.42474916, 0.0, 0.22407803, 0.0, 0.15369231, 0.0, 0.12900441],
+            ),
             _ => panic!("{m} power moments: only 4, 6 and 8 are defined"),
         };
         Self { strength, target }
@@ -58,7 +61,13 @@ impl Bias {
     pub fn apply<R: Real, const M: usize>(&self, normalised: [R; M]) -> [R; M] {
         let s = R::from_f64(self.strength);
         let keep = R::ONE - s;
-        std::array::from_fn(|k| if k == 0 { normalised[0] } else { keep * normalised[k] + s * R::from_f64(self.target[k - 1]) })
+        std::array::from_fn(|k| {
+            if k == 0 {
+                normalised[0]
+            } else {
+                keep * normalised[k] + s * R::from_f64(self.target[k - 1])
+            }
+        })
     }
 }
 
@@ -83,7 +92,10 @@ impl<R: Real, const N: usize> PowerCurve<R, N> {
     pub fn new<const M: usize>(moments: &[R; M], bias: &Bias) -> Self {
         let total = moments[0];
         let normalised = moments.map(|b| b / total);
-        Self { total, fractions: Orthogonal::from_moments(&bias.apply(normalised)) }
+        Self {
+            total,
+            fractions: Orthogonal::from_moments(&bias.apply(normalised)),
+        }
     }
 
     /// The curve of a total absorbance and of already regularised polynomials of the distribution of its fractions.
@@ -94,7 +106,10 @@ impl<R: Real, const N: usize> PowerCurve<R, N> {
     /// Sharp bounds on the absorbance in front of a depth.
     pub fn bounds(&self, MomentDepth(z): MomentDepth) -> MassBounds<R> {
         let MassBounds { lower, upper } = self.fractions.bounds(R::from_f64(z));
-        MassBounds { lower: self.total * lower, upper: self.total * upper }
+        MassBounds {
+            lower: self.total * lower,
+            upper: self.total * upper,
+        }
     }
 
     /// T = exp(−A), A between its bounds.
@@ -116,18 +131,28 @@ pub(crate) mod tests {
 
     /// Worst error, relative to the total absorbance, against an independent program's bounds (`tests/data/moment_bounds`).
     fn worst_against_file<const N: usize, const M: usize>(bias: f64) -> f64 {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/moment_bounds/moment_bounds_f64_n{N}.npz"));
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/moment_bounds/moment_bounds_f64_n{N}.npz"));
         let npz = Npz::read(&path, &["m", "eta", "bounds"]).unwrap();
-        let (m, eta, bounds) = (npz.required::<f64>("m").unwrap(), npz.required::<f64>("eta").unwrap(), npz.required::<f64>("bounds").unwrap());
+        let (m, eta, bounds) = (
+            npz.required::<f64>("m").unwrap(),
+            npz.required::<f64>("eta").unwrap(),
+            npz.required::<f64>("bounds").unwrap(),
+        );
         assert!(m.shape() == [M, eta.len()] && eta.len() > 100);
         let target = Bias::single_precision(2 * N).target;
         let mut worst = 0.0f64;
         for i in 0..eta.len() {
             // The file's convention: the bias is added to moments that are not normalised.
-            let moments: [f64; M] = std::array::from_fn(|k| (1.0 - bias) * m[[k, i]] + bias * if k == 0 { 1.0 } else { target[k - 1] });
+            let moments: [f64; M] =
+                std::array::from_fn(|k| (1.0 - bias) * m[[k, i]] + bias * if k == 0 { 1.0 } else { target[k - 1] });
             let ours = Orthogonal::<f64, N>::from_moments(&moments).bounds(eta[i]).blend(0.5);
             let error = (ours - bounds[i]).abs() / bounds[i].abs();
-            worst = if error.is_nan() { f64::INFINITY } else { worst.max(error) };
+            worst = if error.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(error)
+            };
         }
         worst
     }
@@ -145,7 +170,13 @@ pub(crate) mod tests {
     /// det[∫ (x − y)(x − z) x^{i+j}] over y, and masses from the Vandermonde system of the moments themselves.
     fn bounds_by_determinants<const N: usize, const M: usize>(b: &[f64; M], z: f64) -> MassBounds<f64> {
         let determinant = |y: f64| {
-            let mut a: Vec<Vec<f64>> = (0..N).map(|i| (0..N).map(|j| b[i + j + 2] - (y + z) * b[i + j + 1] + y * z * b[i + j]).collect()).collect();
+            let mut a: Vec<Vec<f64>> = (0..N)
+                .map(|i| {
+                    (0..N)
+                        .map(|j| b[i + j + 2] - (y + z) * b[i + j + 1] + y * z * b[i + j])
+                        .collect()
+                })
+                .collect();
             eliminate(&mut a)
         };
         let mut atoms = vec![z];
@@ -158,19 +189,28 @@ pub(crate) mod tests {
             }
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
-                if (determinant(middle) > 0.0) == (determinant(low) > 0.0) { low = middle } else { high = middle }
+                if (determinant(middle) > 0.0) == (determinant(low) > 0.0) {
+                    low = middle
+                } else {
+                    high = middle
+                }
             }
             atoms.push(0.5 * (low + high));
         }
         let n = atoms.len();
-        let mut a: Vec<Vec<f64>> = (0..n).map(|k| atoms.iter().map(|y| y.powi(k as i32)).chain([b[k]]).collect()).collect();
+        let mut a: Vec<Vec<f64>> = (0..n)
+            .map(|k| atoms.iter().map(|y| y.powi(k as i32)).chain([b[k]]).collect())
+            .collect();
         eliminate(&mut a);
         let mut mass = vec![0.0; n];
         for i in (0..n).rev() {
             mass[i] = (a[i][n] - (i + 1..n).map(|j| a[i][j] * mass[j]).sum::<f64>()) / a[i][i];
         }
         let lower = (1..n).filter(|&i| atoms[i] < z).map(|i| mass[i]).sum::<f64>();
-        MassBounds { lower, upper: lower + mass[0] }
+        MassBounds {
+            lower,
+            upper: lower + mass[0],
+        }
     }
 
     /// Gaussian elimination with pivoting; the determinant of the leading square.
@@ -198,11 +238,17 @@ pub(crate) mod tests {
     /// Tolerance 1e-6 of the total: the determinants of the other road lose half the digits.
     #[test]
     fn eight_moments_agree_with_determinants_and_vandermonde() {
-        let bias = Bias { strength: 1e-3, ..Bias::single_precision(8) };
+        let bias = Bias {
+            strength: 1e-3,
+            ..Bias::single_precision(8)
+        };
         let mut worst = 0.0f64;
         for case in 0..20u32 {
             let fragment = |i: u32| {
-                let u = |k: u32| f64::from((case * 7919 + i * 104_729 + k * 1_299_709).wrapping_mul(2_654_435_761)) / f64::from(u32::MAX);
+                let u = |k: u32| {
+                    f64::from((case * 7919 + i * 104_729 + k * 1_299_709).wrapping_mul(2_654_435_761))
+                        / f64::from(u32::MAX)
+                };
                 (MomentDepth(2.0 * u(1) - 1.0), 0.05 + u(2))
             };
             let (z, a): (Vec<_>, Vec<_>) = (0..12).map(fragment).unzip();
@@ -222,8 +268,15 @@ pub(crate) mod tests {
     }
 
     /// Few atoms are found again, every one. Tolerance 1e-5 on the absorbance strictly in front of each.
-    fn atoms_are_reconstructed<const N: usize, const M: usize>(gaps: &[f64], masses: &[f64], strength: f64) -> Result<(), TestCaseError> {
-        let bias = Bias { strength, ..Bias::single_precision(2 * N) };
+    fn atoms_are_reconstructed<const N: usize, const M: usize>(
+        gaps: &[f64],
+        masses: &[f64],
+        strength: f64,
+    ) -> Result<(), TestCaseError> {
+        let bias = Bias {
+            strength,
+            ..Bias::single_precision(2 * N)
+        };
         let mut at = -1.0;
         let atoms: Vec<MomentDepth> = gaps[..N]
             .iter()
@@ -237,9 +290,15 @@ pub(crate) mod tests {
         let mut in_front = 0.0;
         for (&z, &a) in atoms.iter().zip(masses) {
             let bounds = curve.bounds(z);
-            prop_assert!((bounds.lower - in_front).abs() <= 1e-5, "{in_front} at {z:?}: {bounds:?}");
+            prop_assert!(
+                (bounds.lower - in_front).abs() <= 1e-5,
+                "{in_front} at {z:?}: {bounds:?}"
+            );
             in_front += a;
-            prop_assert!((bounds.upper - in_front).abs() <= 1e-5, "{in_front} at {z:?}: {bounds:?}");
+            prop_assert!(
+                (bounds.upper - in_front).abs() <= 1e-5,
+                "{in_front} at {z:?}: {bounds:?}"
+            );
         }
         Ok(())
     }
@@ -277,12 +336,19 @@ pub(crate) mod tests {
     /// T-MSE over all fragments of random pixels, moments of 2w − 1.
     fn paper_mse<const N: usize, const M: usize>(list: &FragmentList, strength: f64) -> f64 {
         let planes = list.planes().unwrap();
-        let bias = Bias { strength, ..Bias::single_precision(2 * N) };
+        let bias = Bias {
+            strength,
+            ..Bias::single_precision(2 * N)
+        };
         let exact = abuffer::list_transmittance(list);
         let mut error = AbsoluteError::default();
         for p in 0..list.pixels() {
             let pixel = list.pixel(p);
-            let z: Vec<_> = pixel.view_z.iter().map(|&v| planes.window(ViewZ(v.into())).unwrap().to_moment()).collect();
+            let z: Vec<_> = pixel
+                .view_z
+                .iter()
+                .map(|&v| planes.window(ViewZ(v.into())).unwrap().to_moment())
+                .collect();
             let a: Vec<_> = pixel.alpha.iter().map(|&a| absorbance(a)).collect();
             let curve = PowerCurve::<f64, N>::new(&power_moments::<f64, M>(&z, &a), &bias);
             for (&z, &exact) in z.iter().zip(&exact[list.range(p)]) {
@@ -295,8 +361,14 @@ pub(crate) mod tests {
     /// Figures of an independent prototype on another draw of the same distribution; tolerance 3 %.
     #[test]
     fn the_papers_distribution_gives_the_known_errors() {
-        let list = Synth::new(SynthConfig::paper(), 5).unwrap().pixels(Purpose::Evaluation, 0, 40_000);
-        let found = [paper_mse::<2, 5>(&list, 6e-5), paper_mse::<3, 7>(&list, 5e-5), paper_mse::<4, 9>(&list, 5e-5)];
+        let list = Synth::new(SynthConfig::paper(), 5)
+            .unwrap()
+            .pixels(Purpose::Evaluation, 0, 40_000);
+        let found = [
+            paper_mse::<2, 5>(&list, 6e-5),
+            paper_mse::<3, 7>(&list, 5e-5),
+            paper_mse::<4, 9>(&list, 5e-5),
+        ];
         println!("T-MSE {found:?}");
         for (found, known) in found.into_iter().zip([9.7e-3, 6.1e-3, 4.8e-3]) {
             assert!((found / known - 1.0).abs() <= 0.03, "{found:e} against {known:e}");

@@ -31,7 +31,10 @@ pub fn circle_point<R: Real>(MomentDepth(z): MomentDepth) -> Complex<R> {
 
 impl<R: Real, const M: usize> TrigonometricMoments<R, M> {
     /// No absorbance.
-    pub const ZERO: Self = Self { total: R::ZERO, b: [Complex::ZERO; M] };
+    pub const ZERO: Self = Self {
+        total: R::ZERO,
+        b: [Complex::ZERO; M],
+    };
 
     /// Adds a fragment; a negative absorbance takes one away.
     pub fn add(&mut self, z: MomentDepth, absorbance: R) {
@@ -96,7 +99,11 @@ impl<R: Real, const M: usize> TrigonometricCurve<R, M> {
     pub fn new(moments: &TrigonometricMoments<R, M>, bias: f64) -> Self {
         let scale = R::from_f64(1.0 - bias) / moments.total;
         let szego = Szego::from_moments(R::ONE, &moments.b.map(|b| b.scale(scale)));
-        Self { total: moments.total, szego, end: order(circle_point(MomentDepth(1.0))) }
+        Self {
+            total: moments.total,
+            szego,
+            end: order(circle_point(MomentDepth(1.0))),
+        }
     }
 
     /// Absorbance in front of a depth; not a bound, but near one for overestimation 0 and 1.
@@ -143,7 +150,9 @@ mod tests {
 
     #[test]
     fn the_order_of_points_is_the_order_of_depths() {
-        let places: Vec<f64> = (0..=1000).map(|i| order(circle_point(MomentDepth(i as f64 / 500.0 - 1.0)))).collect();
+        let places: Vec<f64> = (0..=1000)
+            .map(|i| order(circle_point(MomentDepth(i as f64 / 500.0 - 1.0))))
+            .collect();
         assert!(places.windows(2).all(|w| w[0] < w[1]));
         assert_eq!(places[0], -1.0);
         assert!(places[1000] < 7.0);

@@ -14,9 +14,15 @@ pub struct Complex<R> {
 
 impl<R: Real> Complex<R> {
     /// 0.
-    pub const ZERO: Self = Self { re: R::ZERO, im: R::ZERO };
+    pub const ZERO: Self = Self {
+        re: R::ZERO,
+        im: R::ZERO,
+    };
     /// 1.
-    pub const ONE: Self = Self { re: R::ONE, im: R::ZERO };
+    pub const ONE: Self = Self {
+        re: R::ONE,
+        im: R::ZERO,
+    };
 
     /// re + i·im.
     pub fn new(re: R, im: R) -> Self {
@@ -25,7 +31,10 @@ impl<R: Real> Complex<R> {
 
     /// re − i·im.
     pub fn conj(self) -> Self {
-        Self { re: self.re, im: -self.im }
+        Self {
+            re: self.re,
+            im: -self.im,
+        }
     }
 
     /// re² + im².
@@ -35,28 +44,40 @@ impl<R: Real> Complex<R> {
 
     /// A real multiple.
     pub fn scale(self, factor: R) -> Self {
-        Self { re: self.re * factor, im: self.im * factor }
+        Self {
+            re: self.re * factor,
+            im: self.im * factor,
+        }
     }
 }
 
 impl<R: Real> Add for Complex<R> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
+        Self {
+            re: self.re + other.re,
+            im: self.im + other.im,
+        }
     }
 }
 
 impl<R: Real> Sub for Complex<R> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
+        Self {
+            re: self.re - other.re,
+            im: self.im - other.im,
+        }
     }
 }
 
 impl<R: Real> Mul for Complex<R> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
+        Self {
+            re: self.re * other.re - self.im * other.im,
+            im: self.re * other.im + self.im * other.re,
+        }
     }
 }
 

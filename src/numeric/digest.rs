@@ -16,6 +16,9 @@ mod tests {
     /// The digest of "abc" that FIPS 180-2 prints.
     #[test]
     fn known_answer() {
-        assert_eq!(super::sha256_hex([b"a".as_slice(), b"bc"]), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+        assert_eq!(
+            super::sha256_hex([b"a".as_slice(), b"bc"]),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
+        );
     }
 }

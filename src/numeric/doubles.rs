@@ -10,10 +10,16 @@ use fearless_simd::prelude::*;
 pub const DOUBLES: usize = 8;
 
 /// ln 2 in two parts; the first has so few bits that its product with an exponent is exact.
-const LN_2: [f64; 2] = [f64::from_bits(0x3fe6_2e42_fee0_0000), f64::from_bits(0x3dea_39ef_3579_3c76)];
+const LN_2: [f64; 2] = [
+    f64::from_bits(0x3fe6_2e42_fee0_0000),
+    f64::from_bits(0x3dea_39ef_3579_3c76),
+];
 
 /// π/2 in two parts; the first has 33 bits.
-const HALF_PI: [f64; 2] = [f64::from_bits(0x3ff9_21fb_5440_0000), f64::from_bits(0x3dd0_b461_1a62_6331)];
+const HALF_PI: [f64; 2] = [
+    f64::from_bits(0x3ff9_21fb_5440_0000),
+    f64::from_bits(0x3dd0_b461_1a62_6331),
+];
 
 /// The least number whose upper half is greater than `high`.
 const fn above(high: u32) -> f64 {
@@ -50,8 +56,17 @@ pub fn exp<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
     let (hi, lo) = (x - k * splat(LN_2[0]), k * splat(LN_2[1]));
     let r = hi - lo;
     let square = r * r;
-    let p =
-        polynomial(simd, [0x3fc5_5555_5555_553e, 0xbf66_c16c_16be_bd93, 0x3f11_566a_af25_de2c, 0xbebb_bd41_c5d2_6bf1, 0x3e66_3769_72be_a4d0], square);
+    let p = polynomial(
+        simd,
+        [
+            0x3fc5_5555_5555_553e,
+            0xbf66_c16c_16be_bd93,
+            0x3f11_566a_af25_de2c,
+            0xbebb_bd41_c5d2_6bf1,
+            0x3e66_3769_72be_a4d0,
+        ],
+        square,
+    );
     let c = r - square * p;
     let y = one + ((r * c / (splat(2.0) - c) - lo) + hi);
     // Adding 1.5 · 2^52 leaves k in the lowest bits.
@@ -84,7 +99,12 @@ pub fn ln<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
     let z = s * s;
     let w = z * z;
     let odd = [0x3fd9_9999_9997_fa04, 0x3fcc_71c5_1d8e_78af, 0x3fc3_9a09_d078_c69f];
-    let even = [0x3fe5_5555_5555_5593, 0x3fd2_4924_9422_9359, 0x3fc7_4664_96cb_03de, 0x3fc2_f112_df3e_5244];
+    let even = [
+        0x3fe5_5555_5555_5593,
+        0x3fd2_4924_9422_9359,
+        0x3fc7_4664_96cb_03de,
+        0x3fc2_f112_df3e_5244,
+    ];
     let r = z * polynomial(simd, even, w) + w * polynomial(simd, odd, w);
     (((s * (half_square + r) + k * splat(LN_2[1])) - half_square) + f) + k * splat(LN_2[0])
 }
@@ -128,13 +148,18 @@ pub fn sincos<S: Simd>(simd: S, x: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let w = one - half;
     let cos = w + (((one - w) - half) + (z * r - y * tail));
     // Quarter turns: (s, c), (c, −s), (−s, −c), (−c, s), and (s, c) again.
-    let (first, second, third) = (quarter.simd_eq(one), quarter.simd_eq(splat(2.0)), quarter.simd_eq(splat(3.0)));
+    let (first, second, third) = (
+        quarter.simd_eq(one),
+        quarter.simd_eq(splat(2.0)),
+        quarter.simd_eq(splat(3.0)),
+    );
     let (odd, back, down) = (first | third, second | third, first | second);
     let (s, c) = (odd.select(cos, sin), odd.select(sin, cos));
     let (mut s, mut c) = (back.select(-s, s), down.select(-c, c));
     // Next to a multiple of π/2 the reduction cancels, and takes more digits of π than it has here.
     let high = x.to_bits() >> 32;
-    let cancels = (high.simd_eq(0x3ff9_21fb) | high.simd_eq(0x4009_21fb)) | (high.simd_eq(0x4012_d97c) | high.simd_eq(0x4019_21fb));
+    let cancels = (high.simd_eq(0x3ff9_21fb) | high.simd_eq(0x4009_21fb))
+        | (high.simd_eq(0x4012_d97c) | high.simd_eq(0x4019_21fb));
     if cancels.any_true() {
         let (x, lanes): ([f64; DOUBLES], u64) = (x.into(), cancels.to_bitmask());
         let (mut sines, mut cosines): ([f64; DOUBLES], [f64; DOUBLES]) = (s.into(), c.into());
@@ -179,8 +204,14 @@ mod tests {
         x.extend(units(&mut rng, 20_000).iter().map(|u| most * u * libm::exp(-100.0 * u)));
         for &high in highs {
             for high in high - 2..=high + 2 {
-                let low: Vec<u32> = [0, 1, u32::MAX].into_iter().chain((0..50).map(|_| rng.next_u32())).collect();
-                x.extend(low.iter().map(|&low| f64::from_bits(u64::from(high) << 32 | u64::from(low))));
+                let low: Vec<u32> = [0, 1, u32::MAX]
+                    .into_iter()
+                    .chain((0..50).map(|_| rng.next_u32()))
+                    .collect();
+                x.extend(
+                    low.iter()
+                        .map(|&low| f64::from_bits(u64::from(high) << 32 | u64::from(low))),
+                );
             }
         }
         x.extend(more);
@@ -195,18 +226,61 @@ mod tests {
     /// Against `libm` itself, at both ends of the SIMD levels. Control: the next argument has another result.
     #[test]
     fn bits_are_those_of_libm() {
-        let x = arguments(20.0, &[0x3fd6_2e42, 0x3ff0_a2b2, 0x3e30_0000], &[0.0, -0.0, 700.0, -700.0, 1e-300]);
-        let x: Vec<f64> = x.iter().flat_map(|&x| [x, -x]).chain((-700..700).map(f64::from)).collect();
-        let positive = arguments(2.0, &[0x3fe6_a09e, 0x3ff0_0000, 0x0010_0002, 0x7fef_fffd], &[1.0, 1.0 - f64::EPSILON, f64::MIN_POSITIVE, f64::MAX]);
-        let positive: Vec<f64> = positive.into_iter().map(|x| if x.is_normal() { x } else { 1.0 }).collect();
+        let x = arguments(
+            20.0,
+            &[0x3fd6_2e42, 0x3ff0_a2b2, 0x3e30_0000],
+            &[0.0, -0.0, 700.0, -700.0, 1e-300],
+        );
+        let x: Vec<f64> = x
+            .iter()
+            .flat_map(|&x| [x, -x])
+            .chain((-700..700).map(f64::from))
+            .collect();
+        let positive = arguments(
+            2.0,
+            &[0x3fe6_a09e, 0x3ff0_0000, 0x0010_0002, 0x7fef_fffd],
+            &[1.0, 1.0 - f64::EPSILON, f64::MIN_POSITIVE, f64::MAX],
+        );
+        let positive: Vec<f64> = positive
+            .into_iter()
+            .map(|x| if x.is_normal() { x } else { 1.0 })
+            .collect();
         let turn = std::f64::consts::TAU;
-        let highs = [0x3fe9_21fb, 0x4002_d97c, 0x400f_6a7a, 0x4015_fdbc, 0x3ff9_21fb, 0x4009_21fb, 0x4012_d97c, 0x3e46_a09e, 0x3e40_0000];
-        let angles = arguments(turn, &highs, &[0.0, turn, turn * (1.0 - f64::EPSILON), turn / 4.0, turn / 2.0, 0.75 * turn, turn / 8.0]);
+        let highs = [
+            0x3fe9_21fb,
+            0x4002_d97c,
+            0x400f_6a7a,
+            0x4015_fdbc,
+            0x3ff9_21fb,
+            0x4009_21fb,
+            0x4012_d97c,
+            0x3e46_a09e,
+            0x3e40_0000,
+        ];
+        let angles = arguments(
+            turn,
+            &highs,
+            &[
+                0.0,
+                turn,
+                turn * (1.0 - f64::EPSILON),
+                turn / 4.0,
+                turn / 2.0,
+                0.75 * turn,
+                turn / 8.0,
+            ],
+        );
         for level in levels() {
-            let [found] = all(&x, |x| dispatch!(level, simd => [exp(simd, f64x8::from_slice(simd, x)).into()]));
+            let [found] = all(
+                &x,
+                |x| dispatch!(level, simd => [exp(simd, f64x8::from_slice(simd, x)).into()]),
+            );
             assert!(bits(found.clone()) == bits(x.iter().map(|&x| libm::exp(x))));
             assert_ne!(bits(found)[1..], bits(x.iter().map(|&x| libm::exp(x)))[..x.len() - 1]);
-            let [found] = all(&positive, |x| dispatch!(level, simd => [ln(simd, f64x8::from_slice(simd, x)).into()]));
+            let [found] = all(
+                &positive,
+                |x| dispatch!(level, simd => [ln(simd, f64x8::from_slice(simd, x)).into()]),
+            );
             assert!(bits(found) == bits(positive.iter().map(|&x| libm::log(x))));
             let [sines, cosines] = all(&angles, |x| {
                 dispatch!(level, simd => {

@@ -63,7 +63,10 @@ pub fn may_write(path: &Path, replace: Replace) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError::Io`].
 pub fn create_folder(path: &Path) -> Result<(), FileError> {
-    std::fs::create_dir_all(path).map_err(FileError::io(path, "cannot create the folder; is a parent read-only or a file?"))
+    std::fs::create_dir_all(path).map_err(FileError::io(
+        path,
+        "cannot create the folder; is a parent read-only or a file?",
+    ))
 }
 
 /// Writes a file through a temporary one in the same folder that is renamed into place once it is whole and on disk.
@@ -71,10 +74,19 @@ pub fn create_folder(path: &Path) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError::Exists`] under [`Replace::No`]; [`FileError::Io`] for whatever the system or `write` reports. In both cases
 /// what stood at `path` is untouched and the temporary file is gone.
-pub fn write_atomically(path: &Path, replace: Replace, write: impl FnOnce(&mut dyn WriteSeek) -> io::Result<()>) -> Result<(), FileError> {
+pub fn write_atomically(
+    path: &Path,
+    replace: Replace,
+    write: impl FnOnce(&mut dyn WriteSeek) -> io::Result<()>,
+) -> Result<(), FileError> {
     may_write(path, replace)?;
     // A link stays a link: what it names is replaced.
-    let target = if path.is_symlink() { path.canonicalize().map_err(FileError::io(path, "cannot follow the link"))? } else { path.to_owned() };
+    let target = if path.is_symlink() {
+        path.canonicalize()
+            .map_err(FileError::io(path, "cannot follow the link"))?
+    } else {
+        path.to_owned()
+    };
     let path = target.as_path();
     if path.exists() && !path.is_file() {
         return Err(FileError::NotRegular { path: path.to_owned() });
@@ -85,7 +97,10 @@ pub fn write_atomically(path: &Path, replace: Replace, write: impl FnOnce(&mut d
     };
     create_folder(folder)?;
     let cannot = "cannot write; is the folder read-only or the disk full?";
-    let mut temporary = tempfile::Builder::new().prefix(".nmt-").tempfile_in(folder).map_err(FileError::io(path, cannot))?;
+    let mut temporary = tempfile::Builder::new()
+        .prefix(".nmt-")
+        .tempfile_in(folder)
+        .map_err(FileError::io(path, cannot))?;
     let whole = (|| {
         let mut buffered = BufWriter::new(temporary.as_file_mut());
         write(&mut buffered)?;
@@ -95,7 +110,9 @@ pub fn write_atomically(path: &Path, replace: Replace, write: impl FnOnce(&mut d
         {
             // Temporary files are made private; give the result the mode that a plain create would have.
             use std::os::unix::fs::PermissionsExt;
-            temporary.as_file().set_permissions(std::fs::Permissions::from_mode(default_mode()))?;
+            temporary
+                .as_file()
+                .set_permissions(std::fs::Permissions::from_mode(default_mode()))?;
         }
         temporary.as_file().sync_all()
     })();
@@ -107,7 +124,11 @@ pub fn write_atomically(path: &Path, replace: Replace, write: impl FnOnce(&mut d
     .map(drop)
     .map_err(|source| match source.kind() {
         io::ErrorKind::AlreadyExists => FileError::Exists { path: path.to_owned() },
-        _ => FileError::Io { path: path.to_owned(), action: cannot, source },
+        _ => FileError::Io {
+            path: path.to_owned(),
+            action: cannot,
+            source,
+        },
     })
 }
 
@@ -124,7 +145,10 @@ fn default_mode() -> u32 {
         // The umask can be read without changing it from procfs; elsewhere the common one is assumed.
         let umask = std::fs::read_to_string("/proc/self/status")
             .ok()
-            .and_then(|s| s.lines().find_map(|l| l.strip_prefix("Umask:").map(str::trim).map(str::to_owned)))
+            .and_then(|s| {
+                s.lines()
+                    .find_map(|l| l.strip_prefix("Umask:").map(str::trim).map(str::to_owned))
+            })
             .and_then(|s| u32::from_str_radix(&s, 8).ok())
             .unwrap_or(0o022);
         0o666 & !umask
@@ -155,10 +179,16 @@ mod tests {
         assert!(failed.unwrap_err().to_string().contains("the disk is full"));
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-        assert!(matches!(write_atomically(&path, Replace::No, |_| Ok(())), Err(FileError::Exists { .. })));
+        assert!(matches!(
+            write_atomically(&path, Replace::No, |_| Ok(())),
+            Err(FileError::Exists { .. })
+        ));
         write_atomically(&path, Replace::Yes, |w| w.write_all(b"new")).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
-        assert!(matches!(write_atomically(folder.path(), Replace::Yes, |_| Ok(())), Err(FileError::NotRegular { .. })));
+        assert!(matches!(
+            write_atomically(folder.path(), Replace::Yes, |_| Ok(())),
+            Err(FileError::NotRegular { .. })
+        ));
         #[cfg(unix)]
         {
             let link = folder.path().join("link");

@@ -102,7 +102,9 @@ mod tests {
     use fearless_simd::{Level, dispatch};
 
     fn on_lanes(level: Level, x: &[f32], f: impl Fn(Level, &Lanes) -> Lanes) -> Vec<f32> {
-        x.chunks_exact(LANES).flat_map(|c| f(level, &Lanes(c.try_into().unwrap())).0).collect()
+        x.chunks_exact(LANES)
+            .flat_map(|c| f(level, &Lanes(c.try_into().unwrap())).0)
+            .collect()
     }
 
     fn exp_of(level: Level, x: &Lanes) -> Lanes {
@@ -133,15 +135,26 @@ mod tests {
     #[test]
     fn exp_and_ln_stay_within_their_ulps() {
         let arguments: Vec<f32> = (0..1_000_000).map(|i| -87.3 + 175.6 * i as f32 / 1e6).collect();
-        let positive: Vec<f32> = (0..2_000_000u32).map(|i| f32::from_bits(0x0080_0000 + i * 1065)).collect();
-        let near_one: Vec<f32> = (0..1_600_000u32).map(|i| f32::from_bits(0x3f00_0000 + i * 10)).collect();
+        let positive: Vec<f32> = (0..2_000_000u32)
+            .map(|i| f32::from_bits(0x0080_0000 + i * 1065))
+            .collect();
+        let near_one: Vec<f32> = (0..1_600_000u32)
+            .map(|i| f32::from_bits(0x3f00_0000 + i * 10))
+            .collect();
         for level in levels() {
             let worst = |x: &[f32], found: &[f32], exact: &dyn Fn(f64) -> f64| {
                 assert!(!found.is_empty());
-                x.iter().zip(found).map(|(&x, &y)| ulps(y, exact(x.into()))).fold(0.0, f64::max)
+                x.iter()
+                    .zip(found)
+                    .map(|(&x, &y)| ulps(y, exact(x.into())))
+                    .fold(0.0, f64::max)
             };
             let found = on_lanes(level, &arguments, exp_of);
-            assert!(worst(&arguments, &found, &libm::exp) <= 2.0, "{}", worst(&arguments, &found, &libm::exp));
+            assert!(
+                worst(&arguments, &found, &libm::exp) <= 2.0,
+                "{}",
+                worst(&arguments, &found, &libm::exp)
+            );
             assert!(worst(&arguments, &found[LANES..], &libm::exp) > 2.0);
             for x in [&positive, &near_one] {
                 let found = on_lanes(level, x, ln_of);
@@ -152,14 +165,34 @@ mod tests {
 
     #[test]
     fn every_level_gives_the_same_bits() {
-        let x: Vec<f32> = (0..160_000u32).map(|i| f32::from_bits(0x3a00_0000 + i * 1009)).collect();
-        let [a, b] = [Level::new(), Level::baseline()].map(|level| (on_lanes(level, &x, exp_of), on_lanes(level, &x, ln_of)));
+        let x: Vec<f32> = (0..160_000u32)
+            .map(|i| f32::from_bits(0x3a00_0000 + i * 1009))
+            .collect();
+        let [a, b] =
+            [Level::new(), Level::baseline()].map(|level| (on_lanes(level, &x, exp_of), on_lanes(level, &x, ln_of)));
         assert_eq!(a, b);
     }
 
     #[test]
     fn ends_are_finite() {
-        let x = [f32::NEG_INFINITY, -1e30, -100.0, 100.0, 1e30, f32::INFINITY, 0.0, -0.0, f32::NAN, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        let x = [
+            f32::NEG_INFINITY,
+            -1e30,
+            -100.0,
+            100.0,
+            1e30,
+            f32::INFINITY,
+            0.0,
+            -0.0,
+            f32::NAN,
+            1.0,
+            2.0,
+            3.0,
+            4.0,
+            5.0,
+            6.0,
+            7.0,
+        ];
         let y = exp_of(Level::new(), &Lanes(x)).0;
         assert!(y.iter().all(|y| y.is_normal()), "{y:?}");
         assert_eq!((y[6], y[7]), (1.0, 1.0));

@@ -77,7 +77,9 @@ fn header_is_whole(bytes: &[u8]) -> bool {
     match bytes {
         // A 16-bit length in version 1 of the format, 32 bits later.
         [_, _, _, _, _, _, 1, _, a, b, rest @ ..] => usize::from(u16::from_le_bytes([*a, *b])) <= rest.len(),
-        [_, _, _, _, _, _, _, _, a, b, c, d, rest @ ..] => u64::from(u32::from_le_bytes([*a, *b, *c, *d])) <= rest.len() as u64,
+        [_, _, _, _, _, _, _, _, a, b, c, d, rest @ ..] => {
+            u64::from(u32::from_le_bytes([*a, *b, *c, *d])) <= rest.len() as u64
+        }
         _ => false,
     }
 }
@@ -107,7 +109,12 @@ fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, String> {
 }
 
 fn array_error<T: Element>(path: &Path, name: &str, reason: String) -> NpyError {
-    NpyError::Array { path: path.to_owned(), name: name.to_owned(), reason, expected: format!("a whole NumPy array of {}", T::NAME) }
+    NpyError::Array {
+        path: path.to_owned(),
+        name: name.to_owned(),
+        reason,
+        expected: format!("a whole NumPy array of {}", T::NAME),
+    }
 }
 
 /// Reads one `.npy` file.
@@ -123,7 +130,11 @@ pub fn read_npy<T: Element>(path: &Path) -> Result<ArrayD<T>, NpyError> {
 ///
 /// # Errors
 /// [`FileError`]; nothing half-written is left.
-pub fn write_npy<T: Element, D: Dimension>(path: &Path, replace: Replace, array: ArrayView<'_, T, D>) -> Result<(), FileError> {
+pub fn write_npy<T: Element, D: Dimension>(
+    path: &Path,
+    replace: Replace,
+    array: ArrayView<'_, T, D>,
+) -> Result<(), FileError> {
     write_atomically(path, replace, |w| array.write_npy(w).map_err(std::io::Error::other))
 }
 
@@ -148,7 +159,10 @@ impl Npz {
     /// [`NpyError::NotAnArchive`] for anything but a whole zip archive, [`FileError`] where it cannot be read.
     pub fn read(path: &Path, names: &[&str]) -> Result<Self, NpyError> {
         let bytes = super::file::read(path)?;
-        let not = |reason: String| NpyError::NotAnArchive { path: path.to_owned(), reason };
+        let not = |reason: String| NpyError::NotAnArchive {
+            path: path.to_owned(),
+            reason,
+        };
         let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|e| not(e.to_string()))?;
         let mut entries = BTreeMap::new();
         for index in 0..archive.len() {
@@ -160,13 +174,19 @@ impl Npz {
                 continue;
             }
             let mut content = Vec::new();
-            entry.take(LARGEST_ARRAY + 1).read_to_end(&mut content).map_err(|e| not(format!("{name}: {e}")))?;
+            entry
+                .take(LARGEST_ARRAY + 1)
+                .read_to_end(&mut content)
+                .map_err(|e| not(format!("{name}: {e}")))?;
             if content.len() as u64 > LARGEST_ARRAY {
                 return Err(not(format!("{name} is larger than {LARGEST_ARRAY} bytes")));
             }
             entries.insert(name, content);
         }
-        Ok(Self { path: path.to_owned(), entries })
+        Ok(Self {
+            path: path.to_owned(),
+            entries,
+        })
     }
 
     /// The file.
@@ -179,8 +199,12 @@ impl Npz {
     /// # Errors
     /// [`NpyError::Array`] where it is there and not of element type `T`.
     pub fn optional<T: Element>(&self, name: &str) -> Result<Option<ArrayD<T>>, NpyError> {
-        let Some(bytes) = self.entries.get(name) else { return Ok(None) };
-        decode(bytes).map(Some).map_err(|e| array_error::<T>(&self.path, name, e))
+        let Some(bytes) = self.entries.get(name) else {
+            return Ok(None);
+        };
+        decode(bytes)
+            .map(Some)
+            .map_err(|e| array_error::<T>(&self.path, name, e))
     }
 
     /// An array that must be there.
@@ -200,7 +224,12 @@ impl Npz {
 
     /// A wrong-shape or wrong-content error about one of its arrays.
     pub fn wrong(&self, name: &str, reason: impl Into<String>, expected: impl Into<String>) -> NpyError {
-        NpyError::Array { path: self.path.clone(), name: name.to_owned(), reason: reason.into(), expected: expected.into() }
+        NpyError::Array {
+            path: self.path.clone(),
+            name: name.to_owned(),
+            reason: reason.into(),
+            expected: expected.into(),
+        }
     }
 }
 
@@ -246,12 +275,25 @@ mod tests {
         assert_eq!(std::fs::read(&a).unwrap(), std::fs::read(&b).unwrap());
         let npz = Npz::read(&a, &["x", "s", "m"]).unwrap();
         let x = npz.required::<f32>("x").unwrap();
-        assert_eq!(x.iter().map(|v| v.to_bits()).collect::<Vec<_>>(), [1.5f32, -0.0, f32::MIN_POSITIVE / 2.0].map(f32::to_bits));
+        assert_eq!(
+            x.iter().map(|v| v.to_bits()).collect::<Vec<_>>(),
+            [1.5f32, -0.0, f32::MIN_POSITIVE / 2.0].map(f32::to_bits)
+        );
         assert_eq!(npz.required::<u32>("s").unwrap().ndim(), 0);
         assert_eq!(npz.required::<u64>("m").unwrap().shape(), [2, 2]);
         assert!(npz.optional::<f32>("absent").unwrap().is_none());
-        assert!(npz.required::<f32>("absent").unwrap_err().to_string().contains("found: m, s, x"));
-        assert!(npz.required::<f64>("x").unwrap_err().to_string().contains("expected a whole NumPy array of float64"));
+        assert!(
+            npz.required::<f32>("absent")
+                .unwrap_err()
+                .to_string()
+                .contains("found: m, s, x")
+        );
+        assert!(
+            npz.required::<f64>("x")
+                .unwrap_err()
+                .to_string()
+                .contains("expected a whole NumPy array of float64")
+        );
     }
 
     #[test]
@@ -272,7 +314,11 @@ mod tests {
     fn absurd_shapes_allocate_nothing() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.npy");
-        for shape in ["1152921504606846976", "18446744073709551615, 18446744073709551615", "-1"] {
+        for shape in [
+            "1152921504606846976",
+            "18446744073709551615, 18446744073709551615",
+            "-1",
+        ] {
             let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({shape},), }}");
             let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
             bytes.extend(((header.len() + 1) as u16).to_le_bytes());

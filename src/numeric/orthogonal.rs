@@ -1,7 +1,7 @@
 //! Measures on the real line known by their moments: orthogonal polynomials, and the representation by few atoms that has one at a given place.
 
 use super::Real;
-use super::roots::{MOST_ROOTS, real_roots};
+use super::roots::{MAX_ROOTS, real_roots};
 
 /// Beyond this distance from the prescribed atom, another one has no mass: at most h_n · 1e-16 for n = 2, less above.
 const FAR: f64 = 1e4;
@@ -14,8 +14,8 @@ const FAR: f64 = 1e4;
 pub struct Orthogonal<R, const N: usize> {
     alpha: [R; N],
     beta: [R; N],
-    norm: [R; MOST_ROOTS + 1],
-    inverse_norm: [R; MOST_ROOTS + 1],
+    norm: [R; MAX_ROOTS + 1],
+    inverse_norm: [R; MAX_ROOTS + 1],
 }
 
 /// Mass of a measure in front of a point: sharp bounds, from its moments alone.
@@ -50,10 +50,10 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
     /// If another number of moments is given.
     pub fn from_moments(moments: &[R]) -> Self {
         assert_eq!(moments.len(), 2 * N + 1, "2N + 1 moments");
-        let mut above = [R::ZERO; 2 * MOST_ROOTS + 1];
+        let mut above = [R::ZERO; 2 * MAX_ROOTS + 1];
         let mut row = above;
         row[..=2 * N].copy_from_slice(moments);
-        let (mut alpha, mut beta, mut norm) = ([R::ZERO; N], [R::ZERO; N], [R::ZERO; MOST_ROOTS + 1]);
+        let (mut alpha, mut beta, mut norm) = ([R::ZERO; N], [R::ZERO; N], [R::ZERO; MAX_ROOTS + 1]);
         norm[0] = row[0];
         for k in 0..N {
             alpha[k] = row[k + 1] / norm[k];
@@ -77,7 +77,7 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
     /// # Shapes
     /// `atoms: [N]`, `masses: [N]`, positive, the atoms distinct.
     pub fn from_atoms(atoms: &[R; N], masses: &[R; N], last_norm: R) -> Self {
-        let (mut alpha, mut beta, mut norm) = ([R::ZERO; N], [R::ZERO; N], [R::ZERO; MOST_ROOTS + 1]);
+        let (mut alpha, mut beta, mut norm) = ([R::ZERO; N], [R::ZERO; N], [R::ZERO; MAX_ROOTS + 1]);
         let (mut before, mut here) = ([R::ZERO; N], [R::ONE; N]);
         for k in 0..N {
             let (mut mass, mut first) = (R::ZERO, R::ZERO);
@@ -101,15 +101,20 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
         Self::new(alpha, beta, norm)
     }
 
-    fn new(alpha: [R; N], beta: [R; N], norm: [R; MOST_ROOTS + 1]) -> Self {
+    fn new(alpha: [R; N], beta: [R; N], norm: [R; MAX_ROOTS + 1]) -> Self {
         let positive = norm[..=N].iter().all(|&h| h > R::ZERO);
-        let mut inverse_norm = [R::from_f64(f64::NAN); MOST_ROOTS + 1];
+        let mut inverse_norm = [R::from_f64(f64::NAN); MAX_ROOTS + 1];
         if positive {
             for k in 0..=N {
                 inverse_norm[k] = R::ONE / norm[k];
             }
         }
-        Self { alpha, beta, norm, inverse_norm }
+        Self {
+            alpha,
+            beta,
+            norm,
+            inverse_norm,
+        }
     }
 
     /// Squared norm h_N = ∫ π_N² of the last polynomial: how far the moments are from those of N atoms.
@@ -153,7 +158,7 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
             centre += a;
         }
         centre = centre / R::from_f64(N as f64);
-        let mut before = [R::ZERO; MOST_ROOTS + 1];
+        let mut before = [R::ZERO; MAX_ROOTS + 1];
         let mut here = before;
         here[0] = R::ONE;
         for k in 0..N {
@@ -168,9 +173,9 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
 
     /// Coefficients of π_{k+1} about a point from those of π_k and π_{k−1}.
     #[inline]
-    fn next(&self, k: usize, centre: R, here: &[R; MOST_ROOTS + 1], before: &[R; MOST_ROOTS + 1]) -> [R; MOST_ROOTS + 1] {
+    fn next(&self, k: usize, centre: R, here: &[R; MAX_ROOTS + 1], before: &[R; MAX_ROOTS + 1]) -> [R; MAX_ROOTS + 1] {
         let shift = centre - self.alpha[k];
-        let mut next = [R::ZERO; MOST_ROOTS + 1];
+        let mut next = [R::ZERO; MAX_ROOTS + 1];
         next[0] = shift * here[0] - self.beta[k] * before[0];
         for j in 1..=N {
             next[j] = shift * here[j] + here[j - 1] - self.beta[k] * before[j];
@@ -190,11 +195,11 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
     /// # Accuracy
     /// 1e-9 relative to the total mass against an independent program, in f64 with a bias of 1e-3 (`moments::hamburger::tests::agrees_with_*`).
     pub fn bounds(&self, x: R) -> MassBounds<R> {
-        let mut before = [R::ZERO; MOST_ROOTS + 1];
+        let mut before = [R::ZERO; MAX_ROOTS + 1];
         let mut here = before;
         here[0] = R::ONE;
         // Coefficients of K(x, ·) about x, highest power of s = 1/(· − x) last.
-        let mut c = [R::ZERO; MOST_ROOTS + 1];
+        let mut c = [R::ZERO; MAX_ROOTS + 1];
         c[N] = self.inverse_norm[0];
         for k in 0..N {
             let next = self.next(k, x, &here, &before);
@@ -214,7 +219,10 @@ impl<R: Real, const N: usize> Orthogonal<R, N> {
             }
             lower += R::ONE / self.kernel(x + R::ONE / s, N + 1);
         }
-        MassBounds { lower, upper: lower + own }
+        MassBounds {
+            lower,
+            upper: lower + own,
+        }
     }
 }
 
@@ -237,10 +245,19 @@ mod tests {
             assert!((p.beta[k] - k2 / (4.0 * k2 - 1.0)).abs() < 1e-13 && p.alpha[k].abs() < 1e-13);
         }
         let (nodes, weights) = p.gauss();
-        let expected = [(0.8611363115940526, 0.3478548451374538), (0.3399810435848563, 0.6521451548625461)];
+        let expected = [
+            (0.8611363115940526, 0.3478548451374538),
+            (0.3399810435848563, 0.6521451548625461),
+        ];
         for (i, (x, w)) in expected.into_iter().enumerate() {
-            assert!((nodes[3 - i] - x).abs() < 1e-12 && (nodes[i] + x).abs() < 1e-12, "{nodes:?}");
-            assert!((weights[3 - i] - w).abs() < 1e-12 && (weights[i] - w).abs() < 1e-12, "{weights:?}");
+            assert!(
+                (nodes[3 - i] - x).abs() < 1e-12 && (nodes[i] + x).abs() < 1e-12,
+                "{nodes:?}"
+            );
+            assert!(
+                (weights[3 - i] - w).abs() < 1e-12 && (weights[i] - w).abs() < 1e-12,
+                "{weights:?}"
+            );
         }
     }
 
@@ -248,7 +265,12 @@ mod tests {
     fn too_few_atoms_give_nan() {
         let one = Orthogonal::<f64, 2>::from_moments(&moments::<5>(&[(0.5, 1.0)]));
         assert!(one.bounds(0.25).lower.is_nan() && one.bounds(0.25).upper.is_nan());
-        assert!(Orthogonal::<f64, 2>::from_moments(&[1.0, 0.0, -0.5, 0.0, 1.0]).bounds(0.0).lower.is_nan());
+        assert!(
+            Orthogonal::<f64, 2>::from_moments(&[1.0, 0.0, -0.5, 0.0, 1.0])
+                .bounds(0.0)
+                .lower
+                .is_nan()
+        );
     }
 
     proptest! {

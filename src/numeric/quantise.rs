@@ -9,7 +9,11 @@ pub fn round_f16(x: f64) -> f64 {
     let exponent = (((x.to_bits() >> 52) & 0x7ff) as i32 - 1023).max(-14);
     let unit = f64::from_bits(((exponent - 10 + 1023) as u64) << 52);
     let rounded = (x / unit).round_ties_even() * unit;
-    if rounded.abs() >= 65520.0 { f64::INFINITY.copysign(x) } else { rounded }
+    if rounded.abs() >= 65520.0 {
+        f64::INFINITY.copysign(x)
+    } else {
+        rounded
+    }
 }
 
 /// [`round_f16`] of an f32, without branches: for loops over lanes.
@@ -70,9 +74,17 @@ mod tests {
     /// The fast rounding is the other one's, for every exponent, for halves, what lies halfway between them, and their neighbours.
     #[test]
     fn halves_of_f32() {
-        let compare = |x: f32| assert_eq!(round_f16_of_f32(x).to_bits(), (round_f16(x.into()) as f32).to_bits(), "{x:e}");
+        let compare = |x: f32| {
+            assert_eq!(
+                round_f16_of_f32(x).to_bits(),
+                (round_f16(x.into()) as f32).to_bits(),
+                "{x:e}"
+            )
+        };
         for high in 0..1u32 << 16 {
-            for low in [0, 1, 0x7fff, 0x8000, 0x8001, 0xffff, 0x0fff, 0x1000, 0x1001, 0x3000, 0x2fff] {
+            for low in [
+                0, 1, 0x7fff, 0x8000, 0x8001, 0xffff, 0x0fff, 0x1000, 0x1001, 0x3000, 0x2fff,
+            ] {
                 let x = f32::from_bits((high << 16) | low);
                 if !x.is_nan() {
                     compare(x);
@@ -84,7 +96,15 @@ mod tests {
 
     #[test]
     fn fixed_point() {
-        assert_eq!((round_unorm16(-1.0), round_unorm16(0.0), round_unorm16(1.0), round_unorm16(7.0)), (0.0, 0.0, 1.0, 1.0));
+        assert_eq!(
+            (
+                round_unorm16(-1.0),
+                round_unorm16(0.0),
+                round_unorm16(1.0),
+                round_unorm16(7.0)
+            ),
+            (0.0, 0.0, 1.0, 1.0)
+        );
         assert!((round_unorm16(0.3) - 0.3).abs() <= 0.5 / 65535.0 && round_unorm16(0.3) != 0.3);
         assert!(round_unorm16(f64::NAN).is_nan());
     }

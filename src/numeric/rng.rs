@@ -43,7 +43,13 @@ pub struct Stream {
 pub fn stream(seed: u64, purpose: u64, index: u64) -> Stream {
     let words = |x: u64| [x as u32, (x >> 32) as u32];
     let [[s0, s1], [p0, p1]] = [words(seed), words(purpose)];
-    Stream { key: [[s0, s1, p0, p1], [0; 4]], nonce: index, block: 0, words: [0; WORDS], at: WORDS }
+    Stream {
+        key: [[s0, s1, p0, p1], [0; 4]],
+        nonce: index,
+        block: 0,
+        words: [0; WORDS],
+        at: WORDS,
+    }
 }
 
 /// Uniform in [0, 1), a multiple of 2^−52: the upper bits of the number that two words make.
@@ -113,7 +119,14 @@ impl Stream {
         // A chain holds four blocks, each row of their states in one vector.
         let row = |row: [u32; 4]| u32x16::simd_from(simd, std::array::from_fn::<u32, 16, _>(|i| row[i % 4]));
         let last_row = |first: u64| {
-            let words = |block: u64| [block as u32, (block >> 32) as u32, self.nonce as u32, (self.nonce >> 32) as u32];
+            let words = |block: u64| {
+                [
+                    block as u32,
+                    (block >> 32) as u32,
+                    self.nonce as u32,
+                    (self.nonce >> 32) as u32,
+                ]
+            };
             let rows: [[u32; 4]; 4] = std::array::from_fn(|i| words(first.wrapping_add(i as u64)));
             u32x16::simd_from(simd, std::array::from_fn::<u32, 16, _>(|i| rows[i / 4][i % 4]))
         };
@@ -126,16 +139,28 @@ impl Stream {
             }
             // The diagonals stand below one another once rows 1 to 3 are turned.
             for [_, b, c, d] in &mut chains {
-                (*b, *c, *d) = (b.slide_within_blocks::<1>(*b), c.slide_within_blocks::<2>(*c), d.slide_within_blocks::<3>(*d));
+                (*b, *c, *d) = (
+                    b.slide_within_blocks::<1>(*b),
+                    c.slide_within_blocks::<2>(*c),
+                    d.slide_within_blocks::<3>(*d),
+                );
             }
             for chain in &mut chains {
                 quarter_rounds(chain);
             }
             for [_, b, c, d] in &mut chains {
-                (*b, *c, *d) = (b.slide_within_blocks::<3>(*b), c.slide_within_blocks::<2>(*c), d.slide_within_blocks::<1>(*d));
+                (*b, *c, *d) = (
+                    b.slide_within_blocks::<3>(*b),
+                    c.slide_within_blocks::<2>(*c),
+                    d.slide_within_blocks::<1>(*d),
+                );
             }
         }
-        for ((chain, start), words) in chains.iter().zip(&starts).zip(self.words[AHEAD..].chunks_exact_mut(4 * BLOCK)) {
+        for ((chain, start), words) in chains
+            .iter()
+            .zip(&starts)
+            .zip(self.words[AHEAD..].chunks_exact_mut(4 * BLOCK))
+        {
             for (row, (sum, start)) in chain.iter().zip(start).enumerate() {
                 let sum: [u32; 16] = (*sum + *start).into();
                 for (block, words) in words.chunks_exact_mut(BLOCK).enumerate() {
@@ -217,8 +242,17 @@ mod tests {
     #[test]
     fn words_are_those_of_chacha8() {
         let big = 0x0123_4567_89ab_cdef;
-        for (seed, purpose, index) in [(0, 0, 0), (1, 2, 3), (u64::MAX, big, 1 << 63), (big, 0x1005, (1 << 40) + 7)] {
-            let (mut ours, mut theirs, mut other) = (stream(seed, purpose, index), theirs(seed, purpose, index), theirs(seed, purpose, index ^ 1));
+        for (seed, purpose, index) in [
+            (0, 0, 0),
+            (1, 2, 3),
+            (u64::MAX, big, 1 << 63),
+            (big, 0x1005, (1 << 40) + 7),
+        ] {
+            let (mut ours, mut theirs, mut other) = (
+                stream(seed, purpose, index),
+                theirs(seed, purpose, index),
+                theirs(seed, purpose, index ^ 1),
+            );
             for i in 0..5000 {
                 if i % 3 == 0 || i % 7 == 0 {
                     assert_eq!(ours.next_u32(), theirs.next_u32(), "call {i}");

@@ -3,7 +3,7 @@
 use super::Real;
 
 /// Greatest degree that [`real_roots`] takes.
-pub const MOST_ROOTS: usize = 4;
+pub const MAX_ROOTS: usize = 4;
 
 /// Most steps of one root: enough to halve a bracket down to one unit in the last place from any start.
 const STEPS: usize = 200;
@@ -15,17 +15,20 @@ const STEPS: usize = 200;
 /// therefore always real: where rounding has pushed a close pair off the real line, it is the nearby extremum twice.
 ///
 /// # Shapes
-/// `coefficients: [d + 1]`, 1 ≤ d ≤ [`MOST_ROOTS`], c_0 first, c_d ≠ 0.
+/// `coefficients: [d + 1]`, 1 ≤ d ≤ [`MAX_ROOTS`], c_0 first, c_d ≠ 0.
 ///
 /// # Accuracy
 /// Simple roots to a few units in the last place times their condition (`roots_are_recovered`).
 ///
 /// # Panics
 /// If the degree is out of range.
-pub fn real_roots<R: Real>(coefficients: &[R]) -> [R; MOST_ROOTS] {
+pub fn real_roots<R: Real>(coefficients: &[R]) -> [R; MAX_ROOTS] {
     let degree = coefficients.len() - 1;
-    assert!((1..=MOST_ROOTS).contains(&degree), "degree {degree} is not in 1..={MOST_ROOTS}");
-    let mut roots = [R::ZERO; MOST_ROOTS];
+    assert!(
+        (1..=MAX_ROOTS).contains(&degree),
+        "degree {degree} is not in 1..={MAX_ROOTS}"
+    );
+    let mut roots = [R::ZERO; MAX_ROOTS];
     match *coefficients {
         [c0, c1] => roots[0] = -c0 / c1,
         [c0, c1, c2] => (roots[0], roots[1]) = quadratic(c0, c1, c2),
@@ -38,15 +41,19 @@ fn quadratic<R: Real>(c0: R, c1: R, c2: R) -> (R, R) {
     let half = c1 * R::from_f64(0.5);
     let discriminant = half * half - c2 * c0;
     // Rounding alone makes the discriminant of a double root negative.
-    let root = if discriminant < R::ZERO { R::ZERO } else { discriminant.sqrt() };
+    let root = if discriminant < R::ZERO {
+        R::ZERO
+    } else {
+        discriminant.sqrt()
+    };
     let sum = if half < R::ZERO { root - half } else { -(half + root) };
     let (a, b) = (sum / c2, if sum == R::ZERO { R::ZERO } else { c0 / sum });
     if a < b { (a, b) } else { (b, a) }
 }
 
-fn bracketed<R: Real>(c: &[R], roots: &mut [R; MOST_ROOTS]) {
+fn bracketed<R: Real>(c: &[R], roots: &mut [R; MAX_ROOTS]) {
     let degree = c.len() - 1;
-    let mut derivative = [R::ZERO; MOST_ROOTS];
+    let mut derivative = [R::ZERO; MAX_ROOTS];
     for k in 1..=degree {
         derivative[k - 1] = c[k] * R::from_f64(k as f64);
     }
@@ -91,7 +98,11 @@ fn bracketed_root<R: Real>(c: &[R], mut low: R, mut high: R, start: R, rising: b
             low = x;
         }
         let newton = x - value / slope;
-        let next = if newton >= low && newton <= high { newton } else { (low + high) * R::from_f64(0.5) };
+        let next = if newton >= low && newton <= high {
+            newton
+        } else {
+            (low + high) * R::from_f64(0.5)
+        };
         let step = (next - x).abs();
         x = next;
         if step <= R::from_f64(2.0) * R::EPSILON * x.abs() {
@@ -154,11 +165,18 @@ mod tests {
     #[test]
     fn multiple_roots_stay_real_and_close() {
         // A d-fold root moves by ε^(1/d).
-        for (roots, tolerance) in
-            [(vec![0.3, 0.3], 1e-7), (vec![0.3, 0.3, 0.7], 1e-6), (vec![0.3; 3], 1e-4), (vec![-0.6, 0.3, 0.3, 0.7], 1e-6), (vec![0.3; 4], 1e-3)]
-        {
+        for (roots, tolerance) in [
+            (vec![0.3, 0.3], 1e-7),
+            (vec![0.3, 0.3, 0.7], 1e-6),
+            (vec![0.3; 3], 1e-4),
+            (vec![-0.6, 0.3, 0.3, 0.7], 1e-6),
+            (vec![0.3; 4], 1e-3),
+        ] {
             let found = real_roots(&expand(&roots, 2.0));
-            assert!(found.iter().zip(&roots).all(|(f, r)| (f - r).abs() < tolerance), "{found:?} for {roots:?}");
+            assert!(
+                found.iter().zip(&roots).all(|(f, r)| (f - r).abs() < tolerance),
+                "{found:?} for {roots:?}"
+            );
         }
         assert_eq!(real_roots(&[0.0, 0.0, 1.0])[..2], [0.0, 0.0]);
     }

@@ -73,12 +73,20 @@ impl AbsoluteError {
 
     /// Mean absolute error; NaN where there was no pair or a non-finite one.
     pub fn mean(&self) -> f64 {
-        if self.usable() { self.sum / self.count as f64 } else { f64::NAN }
+        if self.usable() {
+            self.sum / self.count as f64
+        } else {
+            f64::NAN
+        }
     }
 
     /// Mean squared error; NaN where there was no pair or a non-finite one.
     pub fn mse(&self) -> f64 {
-        if self.usable() { self.sum_of_squares / self.count as f64 } else { f64::NAN }
+        if self.usable() {
+            self.sum_of_squares / self.count as f64
+        } else {
+            f64::NAN
+        }
     }
 
     /// Whether there was at least one pair, all were finite, and none was further off than `bar`.

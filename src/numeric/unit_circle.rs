@@ -3,13 +3,13 @@
 
 use super::Real;
 use super::complex::Complex;
-use super::roots::{MOST_ROOTS, real_roots};
+use super::roots::{MAX_ROOTS, real_roots};
 
 /// κ\[j\]\[t\]: coefficient of (i s)^t in (1 + i s)^j (1 − i s)^(m − j).
-type Krawtchouk = [[f64; MOST_ROOTS + 1]; MOST_ROOTS + 1];
+type Krawtchouk = [[f64; MAX_ROOTS + 1]; MAX_ROOTS + 1];
 
 const fn krawtchouk(m: usize) -> Krawtchouk {
-    let mut table = [[0.0; MOST_ROOTS + 1]; MOST_ROOTS + 1];
+    let mut table = [[0.0; MAX_ROOTS + 1]; MAX_ROOTS + 1];
     let mut j = 0;
     while j <= m {
         table[j][0] = 1.0;
@@ -28,7 +28,13 @@ const fn krawtchouk(m: usize) -> Krawtchouk {
     table
 }
 
-const KRAWTCHOUK: [Krawtchouk; MOST_ROOTS + 1] = [krawtchouk(0), krawtchouk(1), krawtchouk(2), krawtchouk(3), krawtchouk(4)];
+const KRAWTCHOUK: [Krawtchouk; MAX_ROOTS + 1] = [
+    krawtchouk(0),
+    krawtchouk(1),
+    krawtchouk(2),
+    krawtchouk(3),
+    krawtchouk(4),
+];
 
 /// An atom of a measure on the unit circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +52,7 @@ pub struct CircleAtom<R> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Szego<R, const M: usize> {
     reflection: [Complex<R>; M],
-    inverse_norm: [R; MOST_ROOTS + 1],
+    inverse_norm: [R; MAX_ROOTS + 1],
 }
 
 impl<R: Real, const M: usize> Szego<R, M> {
@@ -55,9 +61,9 @@ impl<R: Real, const M: usize> Szego<R, M> {
     /// Where an E_k is not positive, the moments are not those of a measure with more than k atoms, and everything is NaN.
     pub fn from_moments(mass: R, moments: &[Complex<R>; M]) -> Self {
         let mut reflection = [Complex::ZERO; M];
-        let mut norm = [R::ZERO; MOST_ROOTS + 1];
+        let mut norm = [R::ZERO; MAX_ROOTS + 1];
         norm[0] = mass;
-        let mut phi = [Complex::ZERO; MOST_ROOTS + 1];
+        let mut phi = [Complex::ZERO; MAX_ROOTS + 1];
         phi[0] = Complex::ONE;
         for k in 0..M {
             let mut overlap = Complex::ZERO;
@@ -67,19 +73,23 @@ impl<R: Real, const M: usize> Szego<R, M> {
             let a = overlap.conj().scale(R::ONE / norm[k]);
             reflection[k] = a;
             norm[k + 1] = norm[k] * (R::ONE - a.norm_squared());
-            let reversed: [_; MOST_ROOTS + 1] = std::array::from_fn(|j| if j <= k { phi[k - j].conj() } else { Complex::ZERO });
+            let reversed: [_; MAX_ROOTS + 1] =
+                std::array::from_fn(|j| if j <= k { phi[k - j].conj() } else { Complex::ZERO });
             for j in (0..=k + 1).rev() {
                 let shifted = if j > 0 { phi[j - 1] } else { Complex::ZERO };
                 phi[j] = shifted - a.conj() * reversed[j];
             }
         }
-        let mut inverse_norm = [R::from_f64(f64::NAN); MOST_ROOTS + 1];
+        let mut inverse_norm = [R::from_f64(f64::NAN); MAX_ROOTS + 1];
         if norm[..=M].iter().all(|&e| e > R::ZERO) {
             for k in 0..=M {
                 inverse_norm[k] = R::ONE / norm[k];
             }
         }
-        Self { reflection, inverse_norm }
+        Self {
+            reflection,
+            inverse_norm,
+        }
     }
 
     /// Kernel K(x, x) = Σ |φ_k(x)|²/E_k.
@@ -95,11 +105,11 @@ impl<R: Real, const M: usize> Szego<R, M> {
     }
 
     /// Coefficients q of the kernel polynomial K(x0, x) = Σ q_k x^k; its M roots lie on the unit circle.
-    pub fn kernel_polynomial(&self, x0: Complex<R>) -> [Complex<R>; MOST_ROOTS + 1] {
-        let mut phi = [Complex::ZERO; MOST_ROOTS + 1];
+    pub fn kernel_polynomial(&self, x0: Complex<R>) -> [Complex<R>; MAX_ROOTS + 1] {
+        let mut phi = [Complex::ZERO; MAX_ROOTS + 1];
         phi[0] = Complex::ONE;
         let (mut at, mut at_reversed) = (Complex::ONE, Complex::ONE);
-        let mut q = [Complex::ZERO; MOST_ROOTS + 1];
+        let mut q = [Complex::ZERO; MAX_ROOTS + 1];
         q[0] = Complex::new(self.inverse_norm[0], R::ZERO);
         for k in 0..M {
             let a = self.reflection[k];
@@ -129,16 +139,16 @@ impl<R: Real, const M: usize> Szego<R, M> {
     ///
     /// # Domain
     /// |x0| = 1.
-    pub fn atoms(&self, x0: Complex<R>) -> [CircleAtom<R>; MOST_ROOTS + 1] {
+    pub fn atoms(&self, x0: Complex<R>) -> [CircleAtom<R>; MAX_ROOTS + 1] {
         let q = self.kernel_polynomial(x0);
         let opposite = x0.scale(-R::ONE);
-        let mut turned = [Complex::ZERO; MOST_ROOTS + 1];
+        let mut turned = [Complex::ZERO; MAX_ROOTS + 1];
         let mut power = Complex::ONE;
         for j in 0..=M {
             turned[j] = q[j] * power;
             power = power * opposite;
         }
-        let mut c = [R::ZERO; MOST_ROOTS + 1];
+        let mut c = [R::ZERO; MAX_ROOTS + 1];
         for (t, c) in c.iter_mut().enumerate().take(M + 1) {
             let mut sum = Complex::ZERO;
             for j in 0..=M {
@@ -153,11 +163,17 @@ impl<R: Real, const M: usize> Szego<R, M> {
             };
         }
         let s = real_roots(&c[..=M]);
-        let mut atoms = [CircleAtom { x: x0, mass: R::ONE / self.kernel(x0) }; MOST_ROOTS + 1];
+        let mut atoms = [CircleAtom {
+            x: x0,
+            mass: R::ONE / self.kernel(x0),
+        }; MAX_ROOTS + 1];
         for (atom, &s) in atoms[1..=M].iter_mut().zip(&s) {
             let scale = R::ONE / (R::ONE + s * s);
             let x = opposite * Complex::new((R::ONE - s * s) * scale, (s + s) * scale);
-            *atom = CircleAtom { x, mass: R::ONE / self.kernel(x) };
+            *atom = CircleAtom {
+                x,
+                mass: R::ONE / self.kernel(x),
+            };
         }
         atoms
     }
@@ -173,14 +189,20 @@ mod tests {
     }
 
     fn moments<const M: usize>(atoms: &[(f64, f64)]) -> [Complex<f64>; M] {
-        std::array::from_fn(|k| atoms.iter().fold(Complex::ZERO, |sum, (t, w)| sum + on_circle((k + 1) as f64 * t).scale(*w)))
+        std::array::from_fn(|k| {
+            atoms.iter().fold(Complex::ZERO, |sum, (t, w)| {
+                sum + on_circle((k + 1) as f64 * t).scale(*w)
+            })
+        })
     }
 
     /// Roots of a complex polynomial by simultaneous (Durand–Kerner) iteration, with no idea of a circle.
     fn complex_roots(q: &[Complex<f64>]) -> Vec<Complex<f64>> {
         let divide = |a: Complex<f64>, b: Complex<f64>| (a * b.conj()).scale(1.0 / b.norm_squared());
         let degree = q.len() - 1;
-        let mut roots: Vec<_> = (0..degree).map(|k| on_circle(0.4 + 2.1 * k as f64).scale(0.9 + 0.05 * k as f64)).collect();
+        let mut roots: Vec<_> = (0..degree)
+            .map(|k| on_circle(0.4 + 2.1 * k as f64).scale(0.9 + 0.05 * k as f64))
+            .collect();
         for _ in 0..2000 {
             for i in 0..degree {
                 let value = q.iter().rev().fold(Complex::ZERO, |sum, &c| sum * roots[i] + c);
@@ -203,17 +225,33 @@ mod tests {
         let mass: f64 = found[..=M].iter().map(|a| a.mass).sum();
         prop_assert!((mass - total).abs() < 1e-9 * total, "{mass} {total}");
         for (k, m) in m.iter().enumerate() {
-            let sum = found[..=M].iter().fold(Complex::ZERO, |sum, a| sum + (0..=k).fold(Complex::ONE, |p, _| p * a.x).scale(a.mass));
-            prop_assert!((sum - *m).norm_squared().sqrt() < 1e-9 * total, "moment {}: {sum:?} {m:?}", k + 1);
+            let sum = found[..=M].iter().fold(Complex::ZERO, |sum, a| {
+                sum + (0..=k).fold(Complex::ONE, |p, _| p * a.x).scale(a.mass)
+            });
+            prop_assert!(
+                (sum - *m).norm_squared().sqrt() < 1e-9 * total,
+                "moment {}: {sum:?} {m:?}",
+                k + 1
+            );
         }
-        prop_assert!(found[..=M].iter().all(|a| a.mass > 0.0 && (a.x.norm_squared() - 1.0).abs() < 1e-14));
+        prop_assert!(
+            found[..=M]
+                .iter()
+                .all(|a| a.mass > 0.0 && (a.x.norm_squared() - 1.0).abs() < 1e-14)
+        );
         // A solver that knows of no circle finds the same roots, on the circle to 1e-8.
         for root in complex_roots(&szego.kernel_polynomial(on_circle(t0))[..=M]) {
             prop_assert!((root.norm_squared().sqrt() - 1.0).abs() < 1e-8, "{root:?}");
-            prop_assert!(found[1..=M].iter().any(|a| (a.x - root).norm_squared().sqrt() < 1e-8), "{root:?} in {found:?}");
+            prop_assert!(
+                found[1..=M].iter().any(|a| (a.x - root).norm_squared().sqrt() < 1e-8),
+                "{root:?} in {found:?}"
+            );
         }
         // The control: the polynomial of a non-positive Toeplitz matrix has roots off the circle, and the atoms are NaN.
-        let bad = Szego::<f64, M>::from_moments(total, &m.map(|m| m.scale(3.0 * total / (m.norm_squared().sqrt() + 1e-3 * total))));
+        let bad = Szego::<f64, M>::from_moments(
+            total,
+            &m.map(|m| m.scale(3.0 * total / (m.norm_squared().sqrt() + 1e-3 * total))),
+        );
         prop_assert!(bad.atoms(on_circle(t0))[0].mass.is_nan());
         Ok(())
     }

@@ -15,7 +15,12 @@ pub const NAME: &str = "abuffer";
 pub struct ABuffer;
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: NAME, names: |head| vec![head.to_owned()], build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: NAME,
+    names: |head| vec![head.to_owned()],
+    build,
+};
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_own()?;

@@ -25,7 +25,12 @@ pub struct Adaptive {
 }
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: "adaptive:K", names, build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: "adaptive:K",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
     [4, 8, 16].map(|k| format!("{head}:{k}")).to_vec()
@@ -46,13 +51,16 @@ impl Method for Adaptive {
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        Ok(Box::new(Layered::of(list, |function: &mut StepFunction, pixel, out| {
-            function.of_pixel(self.nodes, pixel);
-            for (i, (out, &view_z)) in out.iter_mut().zip(pixel.view_z).enumerate() {
-                *out = function.in_front_of(view_z, i);
-            }
-            function.total()
-        })))
+        Ok(Box::new(Layered::of(
+            list,
+            |function: &mut StepFunction, pixel, out| {
+                function.of_pixel(self.nodes, pixel);
+                for (i, (out, &view_z)) in out.iter_mut().zip(pixel.view_z).enumerate() {
+                    *out = function.in_front_of(view_z, i);
+                }
+                function.total()
+            },
+        )))
     }
 }
 
@@ -88,12 +96,21 @@ impl StepFunction {
             node.transmittance *= transmittance;
         }
         let before = self.before(at);
-        self.nodes.insert(at, Node { view_z, index, transmittance: before * transmittance });
+        self.nodes.insert(
+            at,
+            Node {
+                view_z,
+                index,
+                transmittance: before * transmittance,
+            },
+        );
     }
 
     /// Removes the node whose removal takes the least area away; the first of several.
     fn remove_one(&mut self) {
-        let area = |pair: &[Node]| (pair[0].transmittance - pair[1].transmittance) * (f64::from(pair[1].view_z) - f64::from(pair[0].view_z));
+        let area = |pair: &[Node]| {
+            (pair[0].transmittance - pair[1].transmittance) * (f64::from(pair[1].view_z) - f64::from(pair[0].view_z))
+        };
         let areas = self.nodes.windows(2).map(area).enumerate();
         if let Some((before, _)) = areas.min_by(|a, b| a.1.total_cmp(&b.1)) {
             self.nodes[before].transmittance = self.nodes[before + 1].transmittance;
@@ -110,7 +127,10 @@ impl StepFunction {
     }
 
     fn in_front_of(&self, view_z: f32, index: usize) -> f64 {
-        self.before(self.nodes.partition_point(|node| node.view_z < view_z || (node.view_z == view_z && node.index < index)))
+        self.before(
+            self.nodes
+                .partition_point(|node| node.view_z < view_z || (node.view_z == view_z && node.index < index)),
+        )
     }
 
     fn total(&self) -> f64 {

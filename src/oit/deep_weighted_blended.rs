@@ -34,7 +34,12 @@ pub struct DeepWeightedBlended {
 }
 
 /// The method by its name, with the network that is shipped in `models/`.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: NAME, names: |head| vec![head.to_owned()], build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: NAME,
+    names: |head| vec![head.to_owned()],
+    build,
+};
 
 /// The shipped network; configs/deep-weighted-blended.toml trains it.
 const SHIPPED: &[u8] = include_bytes!("../../models/deep-weighted-blended.json");
@@ -42,8 +47,12 @@ const SHIPPED: &[u8] = include_bytes!("../../models/deep-weighted-blended.json")
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_own()?;
     arguments.no_argument()?;
-    let mlp = file::from_json(SHIPPED, Path::new("models/deep-weighted-blended.json"))
-        .map_err(|source| ParseError::Model { name: arguments.name.to_owned(), source })?;
+    let mlp = file::from_json(SHIPPED, Path::new("models/deep-weighted-blended.json")).map_err(|source| {
+        ParseError::Model {
+            name: arguments.name.to_owned(),
+            source,
+        }
+    })?;
     Ok(Box::new(DeepWeightedBlended::new(mlp)?))
 }
 
@@ -54,8 +63,13 @@ impl DeepWeightedBlended {
     /// [`WrongFeatures`] where it is not one of [`FeatureSet::DeepWeightedBlended`].
     pub fn new(mlp: Mlp) -> Result<Self, WrongFeatures> {
         match mlp.feature_set() {
-            FeatureSet::DeepWeightedBlended => Ok(Self { network: Neural::new(mlp) }),
-            found => Err(WrongFeatures { network: mlp.name().to_owned(), found }),
+            FeatureSet::DeepWeightedBlended => Ok(Self {
+                network: Neural::new(mlp),
+            }),
+            found => Err(WrongFeatures {
+                network: mlp.name().to_owned(),
+                found,
+            }),
         }
     }
 }
@@ -69,7 +83,11 @@ impl Method for DeepWeightedBlended {
         BITS_PER_PIXEL
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         self.network.accumulate(list, context)
     }
 }
@@ -83,8 +101,8 @@ mod tests {
     use crate::oit::testing::*;
     use crate::oit::weighted_blended::{Weight, WeightedBlended};
     use crate::synth::SynthConfig;
-    use crate::train::schedule::Job;
-    use crate::train::{Backend, Engine, Outcome, TrainConfig, train};
+    use crate::train::trainer::Job;
+    use crate::train::{Backend, Outcome, TrainConfig, train};
 
     /// The part of the configuration that the library knows.
     #[derive(serde::Deserialize)]
@@ -103,14 +121,25 @@ mod tests {
     /// Sigmoid of a weighted sum of the features.
     fn linear(weights: [f32; 3], bias: f32) -> DeepWeightedBlended {
         let layer = Dense::new(3, 1, weights.to_vec(), vec![bias]).unwrap();
-        DeepWeightedBlended::new(Mlp::new("x", FeatureSet::DeepWeightedBlended, vec![layer], Provenance::default()).unwrap()).unwrap()
+        DeepWeightedBlended::new(
+            Mlp::new("x", FeatureSet::DeepWeightedBlended, vec![layer], Provenance::default()).unwrap(),
+        )
+        .unwrap()
     }
 
     fn trained(dataset: &Dataset, config: &TrainConfig) -> Mlp {
         let folder = tempfile::tempdir().unwrap();
         let checkpoint = folder.path().join("c.json");
         let provenance = Provenance::default();
-        let job = Job { name: "deep", config, seed: 5, backend: Backend::Burn(Engine::Flex), checkpoint: &checkpoint, resume: false, provenance };
+        let job = Job {
+            name: "deep",
+            config,
+            seed: 5,
+            backend: Backend::Fused,
+            checkpoint: &checkpoint,
+            resume: false,
+            provenance,
+        };
         match train(dataset, &job, &|| false, &mut |_| {}).unwrap() {
             Outcome::Finished { mlp, .. } => *mlp,
             other => panic!("{other:?}"),
@@ -119,12 +148,24 @@ mod tests {
 
     #[test]
     fn the_config_is_the_published_recipe() {
-        let Config { name, synth, dataset, train, .. } = config();
+        let Config {
+            name,
+            synth,
+            dataset,
+            train,
+            ..
+        } = config();
         synth.validate().unwrap();
         dataset.validate().unwrap();
         train.validate().unwrap();
-        assert_eq!((name.as_str(), dataset.features), (NAME, FeatureSet::DeepWeightedBlended));
-        assert_eq!((train.hidden, train.epochs, train.batch, train.learning_rate), (vec![10, 8], 150, 128, 1e-4));
+        assert_eq!(
+            (name.as_str(), dataset.features),
+            (NAME, FeatureSet::DeepWeightedBlended)
+        );
+        assert_eq!(
+            (train.hidden, train.epochs, train.batch, train.learning_rate),
+            (vec![10, 8], 150, 128, 1e-4)
+        );
         assert_eq!((dataset.training_pairs, dataset.validation_pairs), (250_000, 50_000));
     }
 
@@ -137,11 +178,17 @@ mod tests {
         // Weight 1/(1 + e^(ln 3 d)): 1/2 in front (d = 0), 1/4 behind (d = 1). Tolerance: a forward pass in f32.
         let falling = linear([-(3.0f32.ln()), 0.0, 0.0], 0.0);
         let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
-        assert!(near(image(&falling, &two())[0], [0.75, 0.5, 0.25]), "2/3 red and 1/3 green are the over operator here");
+        assert!(
+            near(image(&falling, &two())[0], [0.75, 0.5, 0.25]),
+            "2/3 red and 1/3 green are the over operator here"
+        );
         // d = 1/3: 1/(1 + 3^(1/3)).
         let (w, green) = ([0.25, 0.5, 0.0], 1.0 / (1.0 + 3f64.cbrt()));
         let total = w[0] + w[1] + green;
-        assert!(near(image(&falling, &three())[0], [w[1], green, w[0]].map(|w| 0.875 * w / total + 0.125)));
+        assert!(near(
+            image(&falling, &three())[0],
+            [w[1], green, w[0]].map(|w| 0.875 * w / total + 0.125)
+        ));
         assert!(!near(image(&constant, &three())[0], image(&falling, &three())[0]));
     }
 
@@ -157,16 +204,36 @@ mod tests {
 
     #[test]
     fn other_networks_are_refused() {
-        let error = DeepWeightedBlended::new(random_mlp(&[4], 1)).map(drop).unwrap_err().to_string();
-        assert!(error.starts_with("network 'random' takes the features 'paper'"), "{error}");
+        let error = DeepWeightedBlended::new(random_mlp(&[4], 1))
+            .map(drop)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.starts_with("network 'random' takes the features 'paper'"),
+            "{error}"
+        );
     }
 
     /// A tiny training, from lists and from random pixels, beats the best constant, and its image that of a constant weight on pixels it never saw.
     #[test]
     fn our_own_toolchain_trains_it() {
-        let Config { seed, synth, dataset, train, .. } = config();
-        let train = TrainConfig { epochs: 30, learning_rate: 3e-3, ..train };
-        let sizes = DatasetConfig { training_pairs: 3500, validation_pairs: 1000, ..dataset };
+        let Config {
+            seed,
+            synth,
+            dataset,
+            train,
+            ..
+        } = config();
+        let train = TrainConfig {
+            epochs: 30,
+            learning_rate: 3e-3,
+            ..train
+        };
+        let sizes = DatasetConfig {
+            training_pairs: 3500,
+            validation_pairs: 1000,
+            ..dataset
+        };
         let (one, other) = (scene(1), scene(2));
         let from_lists = build_from_lists("tiny", seed, &[("one", &one)], &sizes).unwrap();
         let random = build("tiny", seed, &synth, &sizes, &|_| {}).unwrap();

@@ -22,7 +22,12 @@ pub struct DepthPeeling {
 }
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: "depth-peeling:K", names, build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: "depth-peeling:K",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
     [4, 8].map(|k| format!("{head}:{k}")).to_vec()

@@ -24,14 +24,21 @@ pub struct DualDepthPeeling {
 }
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: "dual-depth-peeling:K", names, build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: "dual-depth-peeling:K",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
     [4, 8].map(|k| format!("{head}:{k}")).to_vec()
 }
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    arguments.layers().map(|passes| Box::new(DualDepthPeeling { passes }) as _)
+    arguments
+        .layers()
+        .map(|passes| Box::new(DualDepthPeeling { passes }) as _)
 }
 
 impl Method for DualDepthPeeling {

@@ -10,15 +10,26 @@ use std::f64::consts::PI;
 const MOST: usize = 32;
 
 /// Name on the command line; 3 and 7 harmonics are the 7 and 15 coefficients of MKKP18 Table 2.
-pub const ENTRY: Entry = Entry { head: "fourier-opacity", pattern: "fourier-opacity:HARMONICS[+own]", names, build };
+pub const ENTRY: Entry = Entry {
+    head: "fourier-opacity",
+    pattern: "fourier-opacity:HARMONICS[+own]",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
-    ["3", "7"].iter().flat_map(|k| [format!("{head}:{k}"), format!("{head}:{k}+own")]).collect()
+    ["3", "7"]
+        .iter()
+        .flat_map(|k| [format!("{head}:{k}"), format!("{head}:{k}+own")])
+        .collect()
 }
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     match arguments.argument.and_then(|k| k.parse::<usize>().ok()) {
-        Some(harmonics) if (1..=MOST).contains(&harmonics) => Ok(Box::new(PerPixel { family: FourierOpacity { harmonics }, own: arguments.own })),
+        Some(harmonics) if (1..=MOST).contains(&harmonics) => Ok(Box::new(PerPixel {
+            family: FourierOpacity { harmonics },
+            own: arguments.own,
+        })),
         _ => Err(arguments.wrong("expected a number of harmonics from 1 to 32")),
     }
 }
@@ -73,7 +84,11 @@ impl MomentBased for FourierOpacity {
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Series {
-        let mut series = Series { total: 0.0, a: [0.0; MOST], b: [0.0; MOST] };
+        let mut series = Series {
+            total: 0.0,
+            a: [0.0; MOST],
+            b: [0.0; MOST],
+        };
         for &sample in samples {
             self.add(&mut series, sample);
         }
@@ -86,7 +101,13 @@ impl MomentBased for FourierOpacity {
 
     fn without(&self, series: &Series, own: Sample) -> Series {
         let mut others = *series;
-        self.add(&mut others, Sample { absorbance: -own.absorbance, ..own });
+        self.add(
+            &mut others,
+            Sample {
+                absorbance: -own.absorbance,
+                ..own
+            },
+        );
         others
     }
 

@@ -14,7 +14,10 @@ pub struct Layered<'a> {
 impl<'a> Layered<'a> {
     /// Runs `f` for every non-empty pixel on all cores: it fills in the weights of the pixel's fragments and returns what the pixel lets through of
     /// the background. `S` is memory that it may use again from pixel to pixel.
-    pub fn of<S: Default>(list: &'a FragmentList, f: impl Fn(&mut S, Pixel<'_>, &mut [f64]) -> f64 + Send + Sync) -> Self {
+    pub fn of<S: Default>(
+        list: &'a FragmentList,
+        f: impl Fn(&mut S, Pixel<'_>, &mut [f64]) -> f64 + Send + Sync,
+    ) -> Self {
         let mut weights = vec![0.0; list.len()];
         let mut behind = vec![1.0; list.pixels()];
         let mut rest = weights.as_mut_slice();
@@ -26,7 +29,11 @@ impl<'a> Layered<'a> {
                 jobs.push((p, own, behind));
             }
         }
-        jobs.into_par_iter().with_min_len(64).for_each_init(S::default, |memory, (p, own, behind)| *behind = f(memory, list.pixel(p), own));
+        jobs.into_par_iter()
+            .with_min_len(64)
+            .for_each_init(S::default, |memory, (p, own, behind)| {
+                *behind = f(memory, list.pixel(p), own)
+            });
         Self { list, weights, behind }
     }
 }

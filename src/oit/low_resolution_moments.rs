@@ -10,10 +10,18 @@ use crate::pixel::{FragmentList, LogWarp, ViewZ, absorbance, abuffer};
 use rayon::prelude::*;
 
 /// Name on the command line.
-pub const ENTRY: Entry = Entry { head: "low-resolution-moments", pattern: "low-resolution-moments:2|4|8[+own]", names, build };
+pub const ENTRY: Entry = Entry {
+    head: "low-resolution-moments",
+    pattern: "low-resolution-moments:2|4|8[+own]",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
-    ["2", "4", "8"].iter().flat_map(|n| [format!("{head}:{n}"), format!("{head}:{n}+own")]).collect()
+    ["2", "4", "8"]
+        .iter()
+        .flat_map(|n| [format!("{head}:{n}"), format!("{head}:{n}+own")])
+        .collect()
 }
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
@@ -23,7 +31,10 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
         Some("8") => 8,
         _ => return Err(arguments.wrong("expected 2, 4 or 8")),
     };
-    Ok(Box::new(LowResolution { factor, own: arguments.own }))
+    Ok(Box::new(LowResolution {
+        factor,
+        own: arguments.own,
+    }))
 }
 
 /// Four moments of blocks of N × N pixels, looked up with bilinear filtering.
@@ -40,7 +51,11 @@ struct LowResolution {
 
 impl Method for LowResolution {
     fn name(&self) -> String {
-        format!("low-resolution-moments:{}{}", self.factor, if self.own { "+own" } else { "" })
+        format!(
+            "low-resolution-moments:{}{}",
+            self.factor,
+            if self.own { "+own" } else { "" }
+        )
     }
 
     /// Sha18 Table 1: 20 bytes a block; coverage at full resolution (32 bits) and the colour target.
@@ -48,7 +63,11 @@ impl Method for LowResolution {
         160u32.div_ceil((self.factor * self.factor) as u32) + 32 + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         let (width, height) = list.size().ok_or_else(|| MethodError::NoSize { method: self.name() })?;
         let (width, height) = (width as usize, height as usize);
         let warp = warp(&|| self.name(), list, &context)?;
@@ -63,10 +82,21 @@ impl Method for LowResolution {
                 }
             }
             let count = ((x1 - x0) * (y1 - y0)) as f64;
-            Block { moments: b.map(|b| b / count), share: 1.0 / count }
+            Block {
+                moments: b.map(|b| b / count),
+                share: 1.0 / count,
+            }
         };
         let blocks = (0..columns * rows).into_par_iter().map(block).collect();
-        Ok(Box::new(Blocks { method: self, list, warp, width, columns, rows, blocks }))
+        Ok(Box::new(Blocks {
+            method: self,
+            list,
+            warp,
+            width,
+            columns,
+            rows,
+            blocks,
+        }))
     }
 }
 
@@ -102,7 +132,12 @@ impl Blocks<'_> {
         let ((x0, x1, u), (y0, y1, v)) = (neighbours(x, factor, self.columns), neighbours(y, factor, self.rows));
         let own = y / factor * self.columns + x / factor;
         let (mut b, mut share) = ([0.0; 5], 0.0);
-        for (x, y, weight) in [(x0, y0, (1.0 - u) * (1.0 - v)), (x1, y0, u * (1.0 - v)), (x0, y1, (1.0 - u) * v), (x1, y1, u * v)] {
+        for (x, y, weight) in [
+            (x0, y0, (1.0 - u) * (1.0 - v)),
+            (x1, y0, u * (1.0 - v)),
+            (x0, y1, (1.0 - u) * v),
+            (x1, y1, u * v),
+        ] {
             let index = y * self.columns + x;
             let block = &self.blocks[index];
             for (b, m) in b.iter_mut().zip(block.moments) {
@@ -136,7 +171,13 @@ impl Accumulated for Blocks<'_> {
             let own = absorbance(alpha);
             *out = exact(v, ends, own, total).unwrap_or_else(|| {
                 let mut others = b;
-                add(&mut others, unit(Sample { z, absorbance: -own * share }));
+                add(
+                    &mut others,
+                    unit(Sample {
+                        z,
+                        absorbance: -own * share,
+                    }),
+                );
                 if others[0] <= NOTHING_ELSE * b[0] {
                     return 1.0;
                 }

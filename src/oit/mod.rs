@@ -55,7 +55,9 @@ pub enum MethodError {
         source: DepthError,
     },
     /// The list is no image, and the method looks at neighbouring pixels.
-    #[error("{method} looks at neighbouring pixels, and the fragment list has no width and height; write both into its file")]
+    #[error(
+        "{method} looks at neighbouring pixels, and the fragment list has no width and height; write both into its file"
+    )]
     NoSize {
         /// The method.
         method: String,
@@ -79,7 +81,11 @@ pub trait Method: Send + Sync {
     ///
     /// # Errors
     /// [`MethodError`] where the list lacks what the method needs.
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError>;
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError>;
 }
 
 /// A method after pass 1.
@@ -105,14 +111,24 @@ pub trait Accumulated: Send + Sync {
 /// # Panics
 /// If the pixel has fragments and no colours.
 pub fn composite_normalised(pixel: Pixel<'_>, transmittances: &[f64], background: [f64; 3]) -> [f64; 3] {
-    composite_with_total(pixel, transmittances, pixel::abuffer::total_absorbance(pixel), background)
+    composite_with_total(
+        pixel,
+        transmittances,
+        pixel::abuffer::total_absorbance(pixel),
+        background,
+    )
 }
 
 /// [`composite_normalised`] with the total absorbance b0 as a method has kept it.
 ///
 /// # Panics
 /// If the pixel has fragments and no colours.
-pub fn composite_with_total(pixel: Pixel<'_>, transmittances: &[f64], total_absorbance: f64, background: [f64; 3]) -> [f64; 3] {
+pub fn composite_with_total(
+    pixel: Pixel<'_>,
+    transmittances: &[f64],
+    total_absorbance: f64,
+    background: [f64; 3],
+) -> [f64; 3] {
     let behind = libm::exp(-total_absorbance);
     let (sum, total) = weighted_sums(pixel, transmittances);
     let scale = if total > 0.0 { (1.0 - behind) / total } else { 0.0 };
@@ -157,19 +173,37 @@ mod tests {
     #[test]
     fn exact_transmittances_composite_to_the_over_operator() {
         let color = [[0.9, 0.1, 0.3], [0.2, 0.8, 0.4], [0.5, 0.5, 1.0]];
-        let pixel = Pixel { view_z: &[3.0, 1.0, 2.0], alpha: &[0.3, 0.6, 0.9], color: Some(&color) };
+        let pixel = Pixel {
+            view_z: &[3.0, 1.0, 2.0],
+            alpha: &[0.3, 0.6, 0.9],
+            color: Some(&color),
+        };
         let mut t = [0.0; 3];
         abuffer::transmittance(pixel, &mut t);
-        let (ours, truth) = (composite_normalised(pixel, &t, [1.0; 3]), abuffer::composite(pixel, [1.0; 3]));
-        assert!(ours.iter().zip(truth).all(|(a, b)| (a - b).abs() < 1e-14), "{ours:?} against {truth:?}");
+        let (ours, truth) = (
+            composite_normalised(pixel, &t, [1.0; 3]),
+            abuffer::composite(pixel, [1.0; 3]),
+        );
+        assert!(
+            ours.iter().zip(truth).all(|(a, b)| (a - b).abs() < 1e-14),
+            "{ours:?} against {truth:?}"
+        );
     }
 
     #[test]
     fn invisible_and_empty_pixels_show_the_background() {
         let color = [[1.0, 0.0, 0.0]];
-        let clear = Pixel { view_z: &[1.0], alpha: &[0.0], color: Some(&color) };
+        let clear = Pixel {
+            view_z: &[1.0],
+            alpha: &[0.0],
+            color: Some(&color),
+        };
         assert_eq!(composite_normalised(clear, &[1.0], [0.2; 3]), [0.2; 3]);
-        let empty = Pixel { view_z: &[], alpha: &[], color: None };
+        let empty = Pixel {
+            view_z: &[],
+            alpha: &[],
+            color: None,
+        };
         assert_eq!(composite_normalised(empty, &[], [0.2; 3]), [0.2; 3]);
     }
 }

@@ -63,12 +63,16 @@ pub(super) struct PerPixel<F> {
 pub(super) fn warp(name: &dyn Fn() -> String, list: &FragmentList, context: &Context) -> Result<LogWarp, MethodError> {
     // A list without fragments asks for no depth.
     let (v0, v1) = context.depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
-    LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|source: DepthError| MethodError::Depth { method: name(), source })
+    LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into()))
+        .map_err(|source: DepthError| MethodError::Depth { method: name(), source })
 }
 
 /// Samples of a pixel.
 pub(super) fn samples(warp: &LogWarp, pixel: Pixel<'_>) -> Vec<Sample> {
-    let sample = |(&v, &alpha): (&f32, &f32)| Sample { z: warp.moment(ViewZ(v.into())), absorbance: absorbance(alpha) };
+    let sample = |(&v, &alpha): (&f32, &f32)| Sample {
+        z: warp.moment(ViewZ(v.into())),
+        absorbance: absorbance(alpha),
+    };
     pixel.view_z.iter().zip(pixel.alpha).map(sample).collect()
 }
 
@@ -89,7 +93,10 @@ pub(super) fn exact(view_z: f32, ends: (f32, f32), absorbance: f64, total: f64) 
 
 /// Least and greatest view depth of a pixel.
 pub(super) fn ends(pixel: Pixel<'_>) -> (f32, f32) {
-    pixel.view_z.iter().fold((f32::INFINITY, 0.0), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+    pixel
+        .view_z
+        .iter()
+        .fold((f32::INFINITY, 0.0), |(lo, hi), &v| (lo.min(v), hi.max(v)))
 }
 
 impl<F: MomentBased> Method for PerPixel<F> {
@@ -101,12 +108,23 @@ impl<F: MomentBased> Method for PerPixel<F> {
         self.family.moment_bits() + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         use rayon::prelude::*;
         let warp = warp(&|| self.name(), list, &context)?;
         let moments = (0..list.pixels()).into_par_iter().with_min_len(64);
-        let moments = moments.map(|p| self.family.accumulate(&samples(&warp, list.pixel(p)))).collect();
-        Ok(Box::new(Pixels { method: self, list, warp, moments }))
+        let moments = moments
+            .map(|p| self.family.accumulate(&samples(&warp, list.pixel(p))))
+            .collect();
+        Ok(Box::new(Pixels {
+            method: self,
+            list,
+            warp,
+            moments,
+        }))
     }
 }
 
@@ -139,7 +157,10 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
         for ((out, &v), &alpha) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
             let own = absorbance(alpha);
             *out = exact(v, ends, own, total).unwrap_or_else(|| {
-                let sample = Sample { z: place(v), absorbance: own };
+                let sample = Sample {
+                    z: place(v),
+                    absorbance: own,
+                };
                 // Whatever rounding makes of it, between none and all of the others lie in front.
                 let least = libm::exp(-(total - own).max(0.0));
                 let others = family.transmittance_of_others(&family.curve(&family.without(moments, sample)), sample.z);
@@ -149,7 +170,11 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
                 // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing that, all that
                 // is known of the others' absorbance in front is that it lies between none and all.
                 let with_own = family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z);
-                if with_own.is_finite() { with_own.clamp(least, 1.0) } else { libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0)) }
+                if with_own.is_finite() {
+                    with_own.clamp(least, 1.0)
+                } else {
+                    libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0))
+                }
             });
         }
     }

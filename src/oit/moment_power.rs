@@ -10,13 +10,30 @@ use crate::pixel::MomentDepth;
 
 /// Names on the command line.
 pub const ENTRIES: [Entry; 3] = [
-    Entry { head: "moment-power-4", pattern: "moment-power-4[:f32|unorm16][+own], moment-power-4:nlqm", names, build: build::<2, 5> },
-    Entry { head: "moment-power-6", pattern: "moment-power-6[:f32|unorm16][+own], moment-power-6:nlqm", names, build: build::<3, 7> },
-    Entry { head: "moment-power-8", pattern: "moment-power-8[:f32|unorm16][+own], moment-power-8:nlqm", names, build: build::<4, 9> },
+    Entry {
+        head: "moment-power-4",
+        pattern: "moment-power-4[:f32|unorm16][+own], moment-power-4:nlqm",
+        names,
+        build: build::<2, 5>,
+    },
+    Entry {
+        head: "moment-power-6",
+        pattern: "moment-power-6[:f32|unorm16][+own], moment-power-6:nlqm",
+        names,
+        build: build::<3, 7>,
+    },
+    Entry {
+        head: "moment-power-8",
+        pattern: "moment-power-8[:f32|unorm16][+own], moment-power-8:nlqm",
+        names,
+        build: build::<4, 9>,
+    },
 ];
 
 fn names(head: &str) -> Vec<String> {
-    let linear = ["", ":f32", ":unorm16"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]);
+    let linear = ["", ":f32", ":unorm16"]
+        .iter()
+        .flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]);
     linear.chain([format!("{head}:nlqm")]).collect()
 }
 
@@ -30,7 +47,10 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
         Some("nlqm") => Storage::Nlqm,
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
-    Ok(Box::new(PerPixel { family: Power::<N, M> { storage }, own: arguments.own }))
+    Ok(Box::new(PerPixel {
+        family: Power::<N, M> { storage },
+        own: arguments.own,
+    }))
 }
 
 /// M − 1 = 2N power moments.
@@ -112,7 +132,13 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
 
     fn without(&self, b: &[f64; M], own: Sample) -> [f64; M] {
         let mut others = *b;
-        add(&mut others, Sample { absorbance: -own.absorbance, ..own });
+        add(
+            &mut others,
+            Sample {
+                absorbance: -own.absorbance,
+                ..own
+            },
+        );
         others
     }
 
@@ -135,5 +161,9 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
 
 /// The same distribution with another total.
 fn scaled<const M: usize>(b: [f64; M], total: f64) -> [f64; M] {
-    if b[0] > 0.0 { std::array::from_fn(|k| if k == 0 { total } else { b[k] / b[0] * total }) } else { b }
+    if b[0] > 0.0 {
+        std::array::from_fn(|k| if k == 0 { total } else { b[k] / b[0] * total })
+    } else {
+        b
+    }
 }

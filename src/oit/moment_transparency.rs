@@ -8,10 +8,18 @@ use crate::moments::hamburger::{Bias, PowerCurve};
 use crate::pixel::MomentDepth;
 
 /// Name on the command line.
-pub const ENTRY: Entry = Entry { head: "moment-transparency", pattern: "moment-transparency[:OVERESTIMATION][+own]", names, build };
+pub const ENTRY: Entry = Entry {
+    head: "moment-transparency",
+    pattern: "moment-transparency[:OVERESTIMATION][+own]",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
-    ["", ":0.25"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]).collect()
+    ["", ":0.25"]
+        .iter()
+        .flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")])
+        .collect()
 }
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
@@ -22,18 +30,27 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
             _ => return Err(arguments.wrong("expected an overestimation from 0 to 1")),
         },
     };
-    Ok(Box::new(PerPixel { family: MomentTransparency { overestimation }, own: arguments.own }))
+    Ok(Box::new(PerPixel {
+        family: MomentTransparency { overestimation },
+        own: arguments.own,
+    }))
 }
 
 /// Bias of moments of depths in [0, 1], in single precision.
 ///
 /// # Source
 /// Strength and target of moment shadow mapping (C. Peters, R. Klein, *Moment shadow mapping*, I3D 2015), on which Sha18 builds; Sha18 prints none.
-pub(super) const BIAS: Bias = Bias { strength: 3e-7, target: [0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0] };
+pub(super) const BIAS: Bias = Bias {
+    strength: 3e-7,
+    target: [0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0],
+};
 
 /// Sha18's unit depth of a moment depth, as a depth to take moments of.
 pub(super) fn unit(sample: Sample) -> Sample {
-    Sample { z: unit_depth(sample.z), ..sample }
+    Sample {
+        z: unit_depth(sample.z),
+        ..sample
+    }
 }
 
 /// z′ = (z + 1)/2 in [0, 1] (Sha18 Eq. 6).
@@ -54,7 +71,11 @@ impl MomentBased for MomentTransparency {
     type Curve = PowerCurve<f64, 2>;
 
     fn name(&self) -> String {
-        if self.overestimation == 0.0 { "moment-transparency".to_owned() } else { format!("moment-transparency:{}", self.overestimation) }
+        if self.overestimation == 0.0 {
+            "moment-transparency".to_owned()
+        } else {
+            format!("moment-transparency:{}", self.overestimation)
+        }
     }
 
     /// Sha18 Table 1: 32 bytes with the 12 of weighted blended transparency; the colour target is counted apart, and coverage is b_0.
@@ -76,7 +97,13 @@ impl MomentBased for MomentTransparency {
 
     fn without(&self, b: &[f64; 5], own: Sample) -> [f64; 5] {
         let mut others = *b;
-        add(&mut others, unit(Sample { absorbance: -own.absorbance, ..own }));
+        add(
+            &mut others,
+            unit(Sample {
+                absorbance: -own.absorbance,
+                ..own
+            }),
+        );
         others
     }
 

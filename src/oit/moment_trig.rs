@@ -12,13 +12,31 @@ use crate::pixel::MomentDepth;
 
 /// Names on the command line.
 pub const ENTRIES: [Entry; 3] = [
-    Entry { head: "moment-trig-2", pattern: "moment-trig-2[:f32|unorm16][+own]", names, build: build::<2> },
-    Entry { head: "moment-trig-3", pattern: "moment-trig-3[:f32|unorm16][+own]", names, build: build::<3> },
-    Entry { head: "moment-trig-4", pattern: "moment-trig-4[:f32|unorm16][+own]", names, build: build::<4> },
+    Entry {
+        head: "moment-trig-2",
+        pattern: "moment-trig-2[:f32|unorm16][+own]",
+        names,
+        build: build::<2>,
+    },
+    Entry {
+        head: "moment-trig-3",
+        pattern: "moment-trig-3[:f32|unorm16][+own]",
+        names,
+        build: build::<3>,
+    },
+    Entry {
+        head: "moment-trig-4",
+        pattern: "moment-trig-4[:f32|unorm16][+own]",
+        names,
+        build: build::<4>,
+    },
 ];
 
 fn names(head: &str) -> Vec<String> {
-    ["", ":f32", ":unorm16"].iter().flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")]).collect()
+    ["", ":f32", ":unorm16"]
+        .iter()
+        .flat_map(|s| [format!("{head}{s}"), format!("{head}{s}+own")])
+        .collect()
 }
 
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
@@ -28,7 +46,10 @@ fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, P
         Some("unorm16") => Storage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
-    Ok(Box::new(PerPixel { family: Trigonometric::<M> { storage }, own: arguments.own }))
+    Ok(Box::new(PerPixel {
+        family: Trigonometric::<M> { storage },
+        own: arguments.own,
+    }))
 }
 
 /// M trigonometric moments.
@@ -59,7 +80,10 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
             for sample in samples {
                 single.add(sample.z, sample.absorbance as f32);
             }
-            return TrigonometricMoments { total: single.total.into(), b: single.b.map(|b| Complex::new(b.re.into(), b.im.into())) };
+            return TrigonometricMoments {
+                total: single.total.into(),
+                b: single.b.map(|b| Complex::new(b.re.into(), b.im.into())),
+            };
         }
         for sample in samples {
             b.add(sample.z, sample.absorbance);
@@ -67,7 +91,10 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
                 // MKKP18 Sec. 5.3: no transform but the shift to [0, 1].
                 let (before, total) = (b.total, round_f16(b.total));
                 let store = |v: f64| total * (2.0 * round_unorm16(0.5 * v / before + 0.5) - 1.0);
-                b = TrigonometricMoments { total, b: b.b.map(|b| Complex::new(store(b.re), store(b.im))) };
+                b = TrigonometricMoments {
+                    total,
+                    b: b.b.map(|b| Complex::new(store(b.re), store(b.im))),
+                };
             }
         }
         b

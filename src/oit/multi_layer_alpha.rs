@@ -24,14 +24,21 @@ pub struct MultiLayerAlpha {
 }
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: "multi-layer-alpha:K", names, build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: "multi-layer-alpha:K",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
     [4, 8, 16].map(|k| format!("{head}:{k}")).to_vec()
 }
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    arguments.layers().map(|layers| Box::new(MultiLayerAlpha { layers }) as _)
+    arguments
+        .layers()
+        .map(|layers| Box::new(MultiLayerAlpha { layers }) as _)
 }
 
 impl Method for MultiLayerAlpha {
@@ -45,7 +52,9 @@ impl Method for MultiLayerAlpha {
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        Ok(Box::new(Layered::of(list, |buffer: &mut Buffer, pixel, out| buffer.blend(self.layers, pixel, out))))
+        Ok(Box::new(Layered::of(list, |buffer: &mut Buffer, pixel, out| {
+            buffer.blend(self.layers, pixel, out)
+        })))
     }
 }
 
@@ -80,11 +89,22 @@ impl Buffer {
         self.merges.clear();
         for (i, (&view_z, &alpha)) in pixel.view_z.iter().zip(pixel.alpha).enumerate() {
             let at = self.layers.partition_point(|layer| layer.view_z <= view_z);
-            self.layers.insert(at, Layer { node: i, view_z, transmittance: libm::exp(-absorbance(alpha)) });
+            self.layers.insert(
+                at,
+                Layer {
+                    node: i,
+                    view_z,
+                    transmittance: libm::exp(-absorbance(alpha)),
+                },
+            );
             if self.layers.len() > k {
                 let back = self.layers.pop().expect("there are k + 1 layers");
                 let front = self.layers.last_mut().expect("k is at least 1");
-                self.merges.push(Merge { front: front.node, back: back.node, front_transmittance: front.transmittance });
+                self.merges.push(Merge {
+                    front: front.node,
+                    back: back.node,
+                    front_transmittance: front.transmittance,
+                });
                 front.node = n + self.merges.len() - 1;
                 front.transmittance *= back.transmittance;
             }
@@ -148,15 +168,25 @@ mod tests {
                 for i in 0..pixel.len() {
                     let alpha = f64::from(pixel.alpha[i]);
                     let color = pixel.color.unwrap()[i].map(|c| alpha * f64::from(c));
-                    let at = layers.iter().position(|l| l.0 > pixel.view_z[i]).unwrap_or(layers.len());
+                    let at = layers
+                        .iter()
+                        .position(|l| l.0 > pixel.view_z[i])
+                        .unwrap_or(layers.len());
                     layers.insert(at, (pixel.view_z[i], color, (-absorbance(pixel.alpha[i])).exp()));
                     if layers.len() > k {
                         let (back, front) = (layers[k], layers[k - 1]);
                         layers.truncate(k - 1);
-                        layers.push((front.0, std::array::from_fn(|c| front.1[c] + front.2 * back.1[c]), front.2 * back.2));
+                        layers.push((
+                            front.0,
+                            std::array::from_fn(|c| front.1[c] + front.2 * back.1[c]),
+                            front.2 * back.2,
+                        ));
                     }
                 }
-                let color = layers.iter().rev().fold(WHITE, |behind, l| std::array::from_fn(|c| l.1[c] + l.2 * behind[c]));
+                let color = layers
+                    .iter()
+                    .rev()
+                    .fold(WHITE, |behind, l| std::array::from_fn(|c| l.1[c] + l.2 * behind[c]));
                 assert_close(ours, &color);
             }
         }

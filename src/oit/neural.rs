@@ -30,8 +30,17 @@ impl Skip {
     pub fn switches(self) -> Switches {
         match self {
             Self::None => Switches::default(),
-            Self::Exact => Switches { ends: true, short: true, ..Switches::default() },
-            Self::Visible => Switches { ends: true, short: true, faint: true, hidden: true },
+            Self::Exact => Switches {
+                ends: true,
+                short: true,
+                ..Switches::default()
+            },
+            Self::Visible => Switches {
+                ends: true,
+                short: true,
+                faint: true,
+                hidden: true,
+            },
         }
     }
 }
@@ -56,19 +65,34 @@ pub struct Answered {
 }
 
 /// The method by its name, `neural:MODEL`; it is in no list of all methods, since it needs a file.
-pub const ENTRY: Entry = Entry { head: "neural", pattern: "neural:MODEL", names: |_| Vec::new(), build };
+pub const ENTRY: Entry = Entry {
+    head: "neural",
+    pattern: "neural:MODEL",
+    names: |_| Vec::new(),
+    build,
+};
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_own()?;
-    let path = arguments.argument.ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
-    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model { name: arguments.name.to_owned(), source })?;
+    let path = arguments
+        .argument
+        .ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
+    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model {
+        name: arguments.name.to_owned(),
+        source,
+    })?;
     Ok(Box::new(Neural::new(mlp)))
 }
 
 impl Neural {
     /// The method that asks this network where its answer is used.
     pub fn new(mlp: Mlp) -> Self {
-        Self { mlp, switches: Skip::default().switches(), storage: Storage::default(), frame: MomentFrame::default() }
+        Self {
+            mlp,
+            switches: Skip::default().switches(),
+            storage: Storage::default(),
+            frame: MomentFrame::default(),
+        }
     }
 
     /// The same, asking about other fragments.
@@ -89,7 +113,11 @@ impl Neural {
     /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
     /// and farthest fragment.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
-        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log { frame } else { MomentFrame::Scene };
+        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log {
+            frame
+        } else {
+            MomentFrame::Scene
+        };
         Self { frame, ..self }
     }
 
@@ -104,7 +132,10 @@ impl Neural {
     }
 
     fn error(&self, source: crate::pixel::DepthError) -> MethodError {
-        MethodError::Depth { method: self.name(), source }
+        MethodError::Depth {
+            method: self.name(),
+            source,
+        }
     }
 
     /// The network's answer (transmittance, or the like) for every fragment of a list, in its order.
@@ -113,8 +144,14 @@ impl Neural {
     ///
     /// # Errors
     /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth range is none.
-    pub fn transmittance(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Vec<f32>, MethodError> {
-        self.answers(list, context, progress).map(|answered| answered.transmittance)
+    pub fn transmittance(
+        &self,
+        list: &FragmentList,
+        context: Context,
+        progress: &dyn Fn(u64),
+    ) -> Result<Vec<f32>, MethodError> {
+        self.answers(list, context, progress)
+            .map(|answered| answered.transmittance)
     }
 
     /// [`Self::transmittance`] with what decided each answer, and how long both passes took.
@@ -123,23 +160,50 @@ impl Neural {
     ///
     /// # Errors
     /// As [`Self::transmittance`].
-    pub fn answers(&self, list: &FragmentList, context: Context, progress: &dyn Fn(u64)) -> Result<Answered, MethodError> {
+    pub fn answers(
+        &self,
+        list: &FragmentList,
+        context: Context,
+        progress: &dyn Fn(u64),
+    ) -> Result<Answered, MethodError> {
         // Pixels are taken in runs of about this many fragments, so that what is made of them stays a few megabytes.
         const RUN: u64 = 1 << 18;
-        let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range).map_err(|e| self.error(e))?;
+        let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range)
+            .map_err(|e| self.error(e))?;
         let extractor = extractor.with_storage(self.storage).with_frame(self.frame);
         let passes = extractor.passes();
         let tiled = Tiled::new(&self.mlp);
         let offsets = list.offsets();
-        let mut answered = Answered { transmittance: vec![0.0; list.len()], classes: vec![Class::Network; list.len()], tally: Tally::default() };
+        let mut answered = Answered {
+            transmittance: vec![0.0; list.len()],
+            classes: vec![Class::Network; list.len()],
+            tally: Tally::default(),
+        };
         let mut first = 0;
         while first < list.pixels() {
-            let end = offsets.partition_point(|&o| o < offsets[first] + RUN).clamp(first + 1, list.pixels());
+            let end = offsets
+                .partition_point(|&o| o < offsets[first] + RUN)
+                .clamp(first + 1, list.pixels());
             let fragments = offsets[first] as usize..offsets[end] as usize;
-            let (out, classes) = (&mut answered.transmittance[fragments.clone()], &mut answered.classes[fragments.clone()]);
+            let (out, classes) = (
+                &mut answered.transmittance[fragments.clone()],
+                &mut answered.classes[fragments.clone()],
+            );
             let tally = match passes {
-                Some(passes) => passes.run(list, first..end, self.switches, || Tile { tiled: &tiled, work: tiled.work() }, out, classes),
-                None => self.ask_all(list, first..end, &extractor, out, classes).map_err(|e| self.error(e))?,
+                Some(passes) => passes.run(
+                    list,
+                    first..end,
+                    self.switches,
+                    || Tile {
+                        tiled: &tiled,
+                        work: tiled.work(),
+                    },
+                    out,
+                    classes,
+                ),
+                None => self
+                    .ask_all(list, first..end, &extractor, out, classes)
+                    .map_err(|e| self.error(e))?,
             };
             answered.tally.add(&tally);
             first = end;
@@ -166,11 +230,15 @@ impl Neural {
         for p in pixels.clone() {
             let own = (offsets[p] - offsets[pixels.start]) as usize..(offsets[p + 1] - offsets[pixels.start]) as usize;
             // Both mean colours lie in [0, 1], whatever the weights: the image changes by at most 1 − e^−b_0.
-            let b0 = if self.switches.faint { abuffer::total_absorbance(list.pixel(p)) } else { f64::INFINITY };
+            let b0 = if self.switches.faint {
+                abuffer::total_absorbance(list.pixel(p))
+            } else {
+                f64::INFINITY
+            };
             for i in own {
                 (out[i], classes[i]) = match known[i] {
                     t if !t.is_nan() => (t, Class::Known),
-                    _ if b0 <= LEAST_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
+                    _ if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
                     _ => (f32::NAN, Class::Network),
                 };
             }
@@ -186,7 +254,11 @@ impl Neural {
             }
         }
         features.truncate(kept * width);
-        let mut tally = Tally { rows: kept as u64, seconds_pass_1, ..Tally::default() };
+        let mut tally = Tally {
+            rows: kept as u64,
+            seconds_pass_1,
+            ..Tally::default()
+        };
         let mut answers = self.mlp.predict(&features).into_iter();
         for (out, &class) in out.iter_mut().zip(&*classes) {
             if class == Class::Network {
@@ -200,7 +272,7 @@ impl Neural {
 }
 
 /// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
-const LEAST_OPACITY: f64 = 1.0 / 512.0;
+const MIN_OPACITY: f64 = 1.0 / 512.0;
 
 /// A network as one thread asks it.
 struct Tile<'a> {
@@ -223,7 +295,15 @@ impl Network for Tile<'_> {
 
 impl Method for Neural {
     fn name(&self) -> String {
-        format!("neural:{}{}", self.mlp.name(), if self.frame == MomentFrame::Pixel { " @ prepass" } else { "" })
+        format!(
+            "neural:{}{}",
+            self.mlp.name(),
+            if self.frame == MomentFrame::Pixel {
+                " @ prepass"
+            } else {
+                ""
+            }
+        )
     }
 
     /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
@@ -236,8 +316,15 @@ impl Method for Neural {
         }
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        Ok(Box::new(Answers { list, transmittance: self.transmittance(list, context, &|_| {})? }))
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+        Ok(Box::new(Answers {
+            list,
+            transmittance: self.transmittance(list, context, &|_| {})?,
+        }))
     }
 }
 
@@ -270,8 +357,16 @@ mod tests {
         let view_z = vec![2.0, 1.0, 4.0, 1.5, 2.5, 3.0, 7.0];
         let alpha = vec![0.5, 0.25, 0.9, 0.3, 0.6, 0.2, 0.7];
         let list = FragmentList::new(vec![0, 2, 7], view_z, alpha, None).unwrap();
-        let mlp = Mlp::new("r", FeatureSet::Recentred, random_mlp(&[4], 1).layers().to_vec(), crate::model::Provenance::default()).unwrap();
-        let found = Neural::new(mlp).transmittance(&list, Context::default(), &|_| {}).unwrap();
+        let mlp = Mlp::new(
+            "r",
+            FeatureSet::Recentred,
+            random_mlp(&[4], 1).layers().to_vec(),
+            crate::model::Provenance::default(),
+        )
+        .unwrap();
+        let found = Neural::new(mlp)
+            .transmittance(&list, Context::default(), &|_| {})
+            .unwrap();
         let exact = crate::pixel::abuffer::list_transmittance(&list);
         for known in [0, 1, 3, 6] {
             assert!((f64::from(found[known]) - exact[known]).abs() < 1e-6, "{known}");
@@ -286,28 +381,60 @@ mod tests {
         let list = FragmentList::new(vec![0, 0, 2, 3], vec![2.0, 1.0, 4.0], vec![0.5, 0.25, 1.0], None).unwrap();
         let planes = CameraPlanes::new(0.5, 8.0).unwrap();
         let method = Neural::new(random_mlp(&[4], 1));
-        assert!(matches!(method.accumulate(&list, Context::default()), Err(MethodError::Depth { .. })));
-        let context = Context { planes: Some(planes), ..Context::default() };
+        assert!(matches!(
+            method.accumulate(&list, Context::default()),
+            Err(MethodError::Depth { .. })
+        ));
+        let context = Context {
+            planes: Some(planes),
+            ..Context::default()
+        };
         let all = oit::weights(&list, &*method.accumulate(&list, context).unwrap());
-        let rows = Extractor::new(FeatureSet::Paper, Some(planes), None).unwrap().list(&list, 1..2).unwrap().features;
-        assert_eq!(all[..2], random_mlp(&[4], 1).predict(&rows).into_iter().map(f64::from).collect::<Vec<_>>());
+        let rows = Extractor::new(FeatureSet::Paper, Some(planes), None)
+            .unwrap()
+            .list(&list, 1..2)
+            .unwrap()
+            .features;
+        assert_eq!(
+            all[..2],
+            random_mlp(&[4], 1)
+                .predict(&rows)
+                .into_iter()
+                .map(f64::from)
+                .collect::<Vec<_>>()
+        );
         assert_eq!(all.len(), 3);
-        let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap().with_planes(planes);
-        assert!(method.transmittance(&none, Context::default(), &|_| {}).unwrap().is_empty());
+        let none = FragmentList::new(vec![0], vec![], vec![], None)
+            .unwrap()
+            .with_planes(planes);
+        assert!(
+            method
+                .transmittance(&none, Context::default(), &|_| {})
+                .unwrap()
+                .is_empty()
+        );
     }
 
     fn recentred(hidden: &[usize], seed: u64, scale: f32) -> Mlp {
         let mut layers = random_mlp(hidden, seed).layers().to_vec();
-        layers.iter_mut().for_each(|l| l.biases.iter_mut().for_each(|b| *b *= scale));
+        layers
+            .iter_mut()
+            .for_each(|l| l.biases.iter_mut().for_each(|b| *b *= scale));
         Mlp::new("r", FeatureSet::Recentred, layers, crate::model::Provenance::default()).unwrap()
     }
 
     /// `exact` gives the bits of `none`, and runs the network less often; with features that know nothing too.
     #[test]
     fn exact_answers_are_those_without_skipping() {
-        let list = passes::tests::pixels(&mut stream(4, 94, 0), 4000).with_planes(CameraPlanes::new(0.5, 200.0).unwrap());
+        let list =
+            passes::tests::pixels(&mut stream(4, 94, 0), 4000).with_planes(CameraPlanes::new(0.5, 200.0).unwrap());
         for mlp in [recentred(&[16, 8], 1, 1.0), random_mlp(&[4], 1)] {
-            let of = |skip| Neural::new(mlp.clone()).with_skip(skip).answers(&list, Context::default(), &|_| {}).unwrap();
+            let of = |skip| {
+                Neural::new(mlp.clone())
+                    .with_skip(skip)
+                    .answers(&list, Context::default(), &|_| {})
+                    .unwrap()
+            };
             let (none, exact, visible) = (of(Skip::None), of(Skip::Exact), of(Skip::Visible));
             let bits = |a: &Answered| a.transmittance.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&none), bits(&exact));
@@ -325,18 +452,40 @@ mod tests {
         let list = passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
         let truth = crate::pixel::abuffer::list_transmittance(&list);
         let (mut worst, mut control, mut again) = (0.0f64, 0.0f64, 0);
-        for (mlp, background) in
-            [(recentred(&[16, 8], 1, 1.0), 1.0), (recentred(&[8], 2, 9.0), 0.0), (recentred(&[6], 3, -9.0), 1.0), (recentred(&[4], 9, 40.0), 0.0)]
-        {
-            let of = |skip| Neural::new(mlp.clone()).with_skip(skip).answers(&list, Context::default(), &|_| {}).unwrap();
+        for (mlp, background) in [
+            (recentred(&[16, 8], 1, 1.0), 1.0),
+            (recentred(&[8], 2, 9.0), 0.0),
+            (recentred(&[6], 3, -9.0), 1.0),
+            (recentred(&[4], 9, 40.0), 0.0),
+        ] {
+            let of = |skip| {
+                Neural::new(mlp.clone())
+                    .with_skip(skip)
+                    .answers(&list, Context::default(), &|_| {})
+                    .unwrap()
+            };
             let (exact, visible) = (of(Skip::Exact), of(Skip::Visible));
             let classes_alone = {
                 let mut class = vec![Class::Network; list.len()];
-                let passes = Extractor::for_list(FeatureSet::Recentred, &list, None, None).unwrap().passes().unwrap();
-                passes.run(&list, 0..list.pixels(), Skip::Visible.switches(), || passes::Silent, &mut vec![0.0; list.len()], &mut class);
+                let passes = Extractor::for_list(FeatureSet::Recentred, &list, None, None)
+                    .unwrap()
+                    .passes()
+                    .unwrap();
+                passes.run(
+                    &list,
+                    0..list.pixels(),
+                    Skip::Visible.switches(),
+                    || passes::Silent,
+                    &mut vec![0.0; list.len()],
+                    &mut class,
+                );
                 class
             };
-            again += classes_alone.iter().zip(&visible.classes).filter(|(a, b)| a != b).count();
+            again += classes_alone
+                .iter()
+                .zip(&visible.classes)
+                .filter(|(a, b)| a != b)
+                .count();
             for p in 0..list.pixels() {
                 let range = list.range(p);
                 let image = |answer: &dyn Fn(usize) -> f64| {
@@ -344,9 +493,21 @@ mod tests {
                     oit::composite_normalised(list.pixel(p), &weights, [background; 3])
                 };
                 let is_hidden = |i: usize| visible.classes[i] == Class::Hidden;
-                let reference = image(&|i| if is_hidden(i) { truth[i] } else { exact.transmittance[i].into() });
+                let reference = image(&|i| {
+                    if is_hidden(i) {
+                        truth[i]
+                    } else {
+                        exact.transmittance[i].into()
+                    }
+                });
                 let found = image(&|i| visible.transmittance[i].into());
-                let bold = image(&|i| if is_hidden(i) { 1.0 } else { visible.transmittance[i].into() });
+                let bold = image(&|i| {
+                    if is_hidden(i) {
+                        1.0
+                    } else {
+                        visible.transmittance[i].into()
+                    }
+                });
                 for c in 0..3 {
                     let change = (found[c] - reference[c]).abs();
                     worst = if change.is_nan() { f64::NAN } else { worst.max(change) };
@@ -365,10 +526,16 @@ mod tests {
         let load = |text: &str| file::from_json(text.as_bytes(), Path::new("m.json")).unwrap();
         let recommended = load(include_str!("../../models/recommended.json"));
         for name in crate::scene::BUILT_IN {
-            let options = crate::scene::Options { size: Some((96, 96)), seed: None };
+            let options = crate::scene::Options {
+                size: Some((96, 96)),
+                seed: None,
+            };
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
             let image = |mlp: &Mlp, skip| {
-                let answers = Neural::new(mlp.clone()).with_skip(skip).transmittance(&list, Context::default(), &|_| {}).unwrap();
+                let answers = Neural::new(mlp.clone())
+                    .with_skip(skip)
+                    .transmittance(&list, Context::default(), &|_| {})
+                    .unwrap();
                 let pixels = (0..list.pixels()).map(|p| {
                     let weights: Vec<f64> = answers[list.range(p)].iter().map(|&t| t.into()).collect();
                     oit::composite_normalised(list.pixel(p), &weights, [1.0; 3])
@@ -378,10 +545,15 @@ mod tests {
             let (exact, visible) = (image(&recommended, Skip::Exact), image(&recommended, Skip::Visible));
             let farthest = |a: &crate::evaluate::Image| {
                 let pairs = a.pixels().as_flattened().iter().zip(exact.pixels().as_flattened());
-                pairs.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
+                pairs
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, |m: f64, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
             };
             assert!(farthest(&visible) <= 1.0 / 512.0, "{name}: {}", farthest(&visible));
-            assert!(crate::evaluate::flip(&exact, &visible).unwrap().mean() <= 5e-4, "{name}");
+            assert!(
+                crate::evaluate::flip(&exact, &visible).unwrap().mean() <= 5e-4,
+                "{name}"
+            );
             let other = image(&recentred(&[4], 9, 9.0), Skip::Exact);
             assert!(farthest(&other) > 1.0 / 512.0, "{name}: {}", farthest(&other));
         }
@@ -397,13 +569,22 @@ mod tests {
         let mlp = file::from_json(include_bytes!("../../models/recommended.json"), Path::new("m.json")).unwrap();
         let mut worse = 0;
         for name in crate::scene::BUILT_IN {
-            let options = crate::scene::Options { size: Some((SIZE as u32, SIZE as u32)), seed: None };
+            let options = crate::scene::Options {
+                size: Some((SIZE as u32, SIZE as u32)),
+                seed: None,
+            };
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
             let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
             let seen = |p: usize| -> Vec<Seen<f32>> {
                 let pixel = list.pixel(p);
                 let fragments = pixel.view_z.iter().zip(pixel.alpha);
-                fragments.map(|(&view_z, &a)| Seen { view_z, z: moment_depth(view_z, range), absorbance: absorbance(a) }).collect()
+                fragments
+                    .map(|(&view_z, &a)| Seen {
+                        view_z,
+                        z: moment_depth(view_z, range),
+                        absorbance: absorbance(a),
+                    })
+                    .collect()
             };
             let sums: Vec<PixelSums<f32, 4>> = (0..list.pixels())
                 .map(|p| {
@@ -421,13 +602,19 @@ mod tests {
                         b0 += s.b0;
                         b.iter_mut().zip(s.b).for_each(|(b, s)| *b += s);
                     });
-                    let own = PixelSums { b: b.map(|b| if step == 1 { b } else { b * (sums[p].b0 / b0.max(1e-30)) }), ..sums[p] };
-                    let ends = [own.nearest, own.farthest].map(|v| if v.is_finite() { moment_depth(v, range) } else { 0.0 });
+                    let own = PixelSums {
+                        b: b.map(|b| if step == 1 { b } else { b * (sums[p].b0 / b0.max(1e-30)) }),
+                        ..sums[p]
+                    };
+                    let ends =
+                        [own.nearest, own.farthest].map(|v| if v.is_finite() { moment_depth(v, range) } else { 0.0 });
                     let weights: Vec<f64> = seen(p)
                         .into_iter()
                         .map(|s| match own.look(s, ends) {
                             Known::Transmittance(t) => t.into(),
-                            Known::Features(first, measure) => mlp.forward::<f32>(&[&first[..], &measure[..]].concat()).into(),
+                            Known::Features(first, measure) => {
+                                mlp.forward::<f32>(&[&first[..], &measure[..]].concat()).into()
+                            }
                         })
                         .collect();
                     oit::composite_normalised(list.pixel(p), &weights, [1.0; 3])
@@ -437,11 +624,21 @@ mod tests {
             let exact = crate::evaluate::image::ground_truth(&list, [1.0; 3]).unwrap();
             let mse = |image: &crate::evaluate::Image| image.error(&exact).unwrap().mse();
             let (full, half) = (image(1), image(2));
-            let usual = crate::evaluate::Truth::new(&list, [1.0; 3]).judge(&Neural::new(mlp.clone()), Context::default()).unwrap();
+            let usual = crate::evaluate::Truth::new(&list, [1.0; 3])
+                .judge(&Neural::new(mlp.clone()), Context::default())
+                .unwrap();
             let usual = mse(&usual.picture.unwrap().0);
             let looks = crate::evaluate::flip(&full, &half).unwrap().mean();
-            println!("{name}: image MSE {:.3e}, with moments of 2 x 2 pixels {:.3e}, FLIP between them {looks:.1e}", mse(&full), mse(&half));
-            assert!((mse(&full) - usual).abs() <= 0.05 * usual, "{name}: {:e} for {usual:e}", mse(&full));
+            println!(
+                "{name}: image MSE {:.3e}, with moments of 2 x 2 pixels {:.3e}, FLIP between them {looks:.1e}",
+                mse(&full),
+                mse(&half)
+            );
+            assert!(
+                (mse(&full) - usual).abs() <= 0.05 * usual,
+                "{name}: {:e} for {usual:e}",
+                mse(&full)
+            );
             worse += usize::from(mse(&half) >= 2.0 * mse(&full));
         }
         assert!(worse >= 4, "{worse}");

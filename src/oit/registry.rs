@@ -1,8 +1,9 @@
 //! Methods by their names on the command line.
 
 use super::{
-    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, low_resolution_moments, moment_power,
-    moment_transparency, moment_trig, multi_layer_alpha, neural, two_moment_passes, weighted_average, weighted_blended, weighted_sum,
+    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
+    low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
+    two_moment_passes, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
 
@@ -32,7 +33,13 @@ impl Arguments<'_> {
     /// # Errors
     /// [`ParseError::Own`].
     pub fn no_own(&self) -> Result<(), ParseError> {
-        if self.own { Err(ParseError::Own { name: self.name.to_owned() }) } else { Ok(()) }
+        if self.own {
+            Err(ParseError::Own {
+                name: self.name.to_owned(),
+            })
+        } else {
+            Ok(())
+        }
     }
 
     /// The number K that a method which is not of moments takes.
@@ -42,8 +49,8 @@ impl Arguments<'_> {
     pub fn layers(&self) -> Result<usize, ParseError> {
         self.no_own()?;
         match self.argument.map(str::parse) {
-            Some(Ok(k @ 1..=MOST_LAYERS)) => Ok(k),
-            _ => Err(self.wrong(format!("expected a whole number from 1 to {MOST_LAYERS}"))),
+            Some(Ok(k @ 1..=MAX_LAYERS)) => Ok(k),
+            _ => Err(self.wrong(format!("expected a whole number from 1 to {MAX_LAYERS}"))),
         }
     }
 
@@ -52,12 +59,16 @@ impl Arguments<'_> {
     /// # Errors
     /// [`ParseError::Argument`].
     pub fn no_argument(&self) -> Result<(), ParseError> {
-        if self.argument.is_none() { Ok(()) } else { Err(self.wrong("expected no argument")) }
+        if self.argument.is_none() {
+            Ok(())
+        } else {
+            Err(self.wrong("expected no argument"))
+        }
     }
 }
 
 /// Most layers, nodes or passes that a method may be asked for.
-pub const MOST_LAYERS: usize = 1 << 16;
+pub const MAX_LAYERS: usize = 1 << 16;
 
 /// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how to make one.
 #[derive(Debug, Clone, Copy)]
@@ -151,7 +162,10 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
     };
     match entries().find(|e| e.head == head) {
         Some(entry) => (entry.build)(&Arguments { name, argument, own }),
-        None => Err(ParseError::Unknown { name: name.to_owned(), known: entries().map(|e| e.pattern).collect::<Vec<_>>().join(", ") }),
+        None => Err(ParseError::Unknown {
+            name: name.to_owned(),
+            known: entries().map(|e| e.pattern).collect::<Vec<_>>().join(", "),
+        }),
     }
 }
 
@@ -186,7 +200,10 @@ mod tests {
         for (name, part) in [
             ("moment-power-5", "known are abuffer, "),
             ("", "there is no method ''"),
-            ("moment-power-4:f16", "expected f32, unorm16 or nlqm after the colon, found 'f16'"),
+            (
+                "moment-power-4:f16",
+                "expected f32, unorm16 or nlqm after the colon, found 'f16'",
+            ),
             ("moment-power-4:nlqm+own", "expected f32 or unorm16 before +own"),
             ("moment-trig-2:nlqm", "expected f32 or unorm16"),
             ("moment-transparency:2", "from 0 to 1"),
@@ -201,7 +218,9 @@ mod tests {
 
     /// Sharpe's bias pulls towards atoms at depths 0 and 1: a pixel with fragments at the ends only stays singular, and NaN.
     fn published_singular(name: &str) -> bool {
-        ["moment-transparency", "two-moment-passes", "low-resolution-moments"].iter().any(|head| name.starts_with(head))
+        ["moment-transparency", "two-moment-passes", "low-resolution-moments"]
+            .iter()
+            .any(|head| name.starts_with(head))
     }
 
     fn image(pixels: usize, fragments: u32) -> FragmentList {
@@ -215,12 +234,17 @@ mod tests {
             }
             offsets.push(view_z.len() as u64);
         }
-        FragmentList::new(offsets, view_z, alpha, None).unwrap().with_size(8, pixels as u32 / 8).unwrap()
+        FragmentList::new(offsets, view_z, alpha, None)
+            .unwrap()
+            .with_size(8, pixels as u32 / 8)
+            .unwrap()
     }
 
     /// Methods that work on moment depth.
     fn takes_moments(name: &str) -> bool {
-        ["moment-", "two-moment", "low-resolution", "fourier"].iter().any(|head| name.starts_with(head))
+        ["moment-", "two-moment", "low-resolution", "fourier"]
+            .iter()
+            .any(|head| name.starts_with(head))
     }
 
     /// All methods on odd but valid lists: as many weights as fragments, finite and not negative where storage does not round, 1 where all is
@@ -228,16 +252,31 @@ mod tests {
     #[test]
     fn odd_lists_are_answered() {
         let planes = crate::pixel::CameraPlanes::new(0.5, 10.0).unwrap();
-        let none = FragmentList::new(vec![0, 0, 0], vec![], vec![], None).unwrap().with_size(2, 1).unwrap().with_planes(planes);
-        let one =
-            FragmentList::new(vec![0, 1, 3], vec![2.0, 3.0, 3.0], vec![1.0, 0.0, 0.5], None).unwrap().with_size(2, 1).unwrap().with_planes(planes);
-        let clear = FragmentList::new(vec![0, 2, 2], vec![2.0, 3.0], vec![0.0, 0.0], None).unwrap().with_size(2, 1).unwrap().with_planes(planes);
+        let none = FragmentList::new(vec![0, 0, 0], vec![], vec![], None)
+            .unwrap()
+            .with_size(2, 1)
+            .unwrap()
+            .with_planes(planes);
+        let one = FragmentList::new(vec![0, 1, 3], vec![2.0, 3.0, 3.0], vec![1.0, 0.0, 0.5], None)
+            .unwrap()
+            .with_size(2, 1)
+            .unwrap()
+            .with_planes(planes);
+        let clear = FragmentList::new(vec![0, 2, 2], vec![2.0, 3.0], vec![0.0, 0.0], None)
+            .unwrap()
+            .with_size(2, 1)
+            .unwrap()
+            .with_planes(planes);
         for name in all_names() {
             let method = parse(&name).unwrap();
             for list in [&none, &one, &clear] {
                 let w = weights(list, &*method.accumulate(list, Context::default()).unwrap());
                 let rounds = name.contains(":f32") || name.contains(":unorm16") || published_singular(&name);
-                let allowed = if method.weights_are_transmittance() { 1.0 + 1e-9 } else { f64::MAX };
+                let allowed = if method.weights_are_transmittance() {
+                    1.0 + 1e-9
+                } else {
+                    f64::MAX
+                };
                 assert!(rounds || w.iter().all(|w| (0.0..=allowed).contains(w)), "{name}: {w:?}");
             }
             if !takes_moments(&name) {
@@ -245,8 +284,14 @@ mod tests {
             }
             let clear = weights(&clear, &*method.accumulate(&clear, Context::default()).unwrap());
             assert_eq!(clear, [1.0, 1.0], "{name}");
-            let bad = Context { depth_range: Some((2.0, 1.0)), ..Context::default() };
-            assert!(matches!(method.accumulate(&one, bad), Err(MethodError::Depth { .. })), "{name}");
+            let bad = Context {
+                depth_range: Some((2.0, 1.0)),
+                ..Context::default()
+            };
+            assert!(
+                matches!(method.accumulate(&one, bad), Err(MethodError::Depth { .. })),
+                "{name}"
+            );
         }
     }
 
@@ -255,15 +300,29 @@ mod tests {
     fn own_answers_the_ends_exactly() {
         let list = image(64, 6);
         let exact = abuffer::list_transmittance(&list);
-        for name in all_names().iter().filter(|n| n.ends_with("+own") && !n.contains("16") && !n.contains(":f32")) {
-            let found = weights(&list, &*parse(name).unwrap().accumulate(&list, Context::default()).unwrap());
+        for name in all_names()
+            .iter()
+            .filter(|n| n.ends_with("+own") && !n.contains("16") && !n.contains(":f32"))
+        {
+            let found = weights(
+                &list,
+                &*parse(name).unwrap().accumulate(&list, Context::default()).unwrap(),
+            );
             for p in 0..list.pixels() {
                 let pixel = list.pixel(p);
                 let range = list.range(p);
-                let (lo, hi) = pixel.view_z.iter().fold((f32::MAX, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+                let (lo, hi) = pixel
+                    .view_z
+                    .iter()
+                    .fold((f32::MAX, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
                 for (i, &v) in range.clone().zip(pixel.view_z) {
                     if v == lo || v == hi {
-                        assert!((found[i] - exact[i]).abs() < 1e-12, "{name} pixel {p}: {} {}", found[i], exact[i]);
+                        assert!(
+                            (found[i] - exact[i]).abs() < 1e-12,
+                            "{name} pixel {p}: {} {}",
+                            found[i],
+                            exact[i]
+                        );
                     }
                 }
             }
@@ -273,20 +332,33 @@ mod tests {
     /// T-MSE of every method on random pixels stays below its bar; single-pixel methods only.
     #[test]
     fn errors_of_methods_on_random_pixels() {
-        let list = Synth::new(SynthConfig::paper(), 5).unwrap().pixels(Purpose::Evaluation, 0, 3_000);
+        let list = Synth::new(SynthConfig::paper(), 5)
+            .unwrap()
+            .pixels(Purpose::Evaluation, 0, 3_000);
         let exact = abuffer::list_transmittance(&list);
         let mse = |name: &str| {
-            let found = weights(&list, &*parse(name).unwrap().accumulate(&list, Context::default()).unwrap());
+            let found = weights(
+                &list,
+                &*parse(name).unwrap().accumulate(&list, Context::default()).unwrap(),
+            );
             let mse = AbsoluteError::of(&found, &exact).mse();
             println!("{name}: {mse:.3e}");
             mse
         };
-        let stated = |name: &String| !name.starts_with("low-resolution") && parse(name).unwrap().weights_are_transmittance();
+        let stated =
+            |name: &String| !name.starts_with("low-resolution") && parse(name).unwrap().weights_are_transmittance();
         for name in all_names().iter().filter(|n| stated(n)) {
-            let bar = if name.starts_with("moment-power") || name.starts_with("moment-trig") { 3e-2 } else { 0.3 };
+            let bar = if name.starts_with("moment-power") || name.starts_with("moment-trig") {
+                3e-2
+            } else {
+                0.3
+            };
             let found = mse(name);
             // Storage that rounds may leave moments that are no measure's: NaN, as published, and never hidden.
-            assert!(found < bar || (found.is_nan() && name.contains(':')), "{name}: {found:e}");
+            assert!(
+                found < bar || (found.is_nan() && name.contains(':')),
+                "{name}: {found:e}"
+            );
         }
         assert!(mse("moment-power-4+own") < 0.7 * mse("moment-power-4"));
         assert!(mse("moment-power-8") < mse("moment-power-6") && mse("moment-power-6") < mse("moment-power-4"));

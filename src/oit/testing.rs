@@ -53,7 +53,9 @@ pub(crate) fn scene(seed: u64) -> FragmentList {
         }
         offsets.push(view_z.len() as u64);
     }
-    FragmentList::new(offsets, view_z, alpha, Some(color)).unwrap().with_planes(CameraPlanes::new(0.5, 10.0).unwrap())
+    FragmentList::new(offsets, view_z, alpha, Some(color))
+        .unwrap()
+        .with_planes(CameraPlanes::new(0.5, 10.0).unwrap())
 }
 
 /// The same pixels with the fragments of each in the opposite order.
@@ -66,15 +68,22 @@ pub(crate) fn reversed(list: &FragmentList) -> FragmentList {
         arrays.1.push(a);
         arrays.2.push(c);
     }
-    FragmentList::new(list.offsets().to_vec(), arrays.0, arrays.1, Some(arrays.2)).unwrap().with_planes(list.planes().unwrap())
+    FragmentList::new(list.offsets().to_vec(), arrays.0, arrays.1, Some(arrays.2))
+        .unwrap()
+        .with_planes(list.planes().unwrap())
 }
 
 /// The same pixels with every fragment of this colour.
 pub(crate) fn painted(list: &FragmentList, color: [f32; 3]) -> FragmentList {
     let colors = vec![color; list.len()];
-    FragmentList::new(list.offsets().to_vec(), list.view_z().to_vec(), list.alpha().to_vec(), Some(colors))
-        .unwrap()
-        .with_planes(list.planes().unwrap())
+    FragmentList::new(
+        list.offsets().to_vec(),
+        list.view_z().to_vec(),
+        list.alpha().to_vec(),
+        Some(colors),
+    )
+    .unwrap()
+    .with_planes(list.planes().unwrap())
 }
 
 /// Weights of all fragments.
@@ -95,13 +104,19 @@ pub(crate) fn image(method: &dyn Method, list: &FragmentList) -> Vec<[f64; 3]> {
 
 /// What the A-buffer shows.
 pub(crate) fn exact_image(list: &FragmentList) -> Vec<[f64; 3]> {
-    (0..list.pixels()).map(|p| abuffer::composite(list.pixel(p), WHITE)).collect()
+    (0..list.pixels())
+        .map(|p| abuffer::composite(list.pixel(p), WHITE))
+        .collect()
 }
 
 /// Mean square of the difference to the A-buffer's image.
 pub(crate) fn image_mse(method: &dyn Method, list: &FragmentList) -> f64 {
     let (ours, exact) = (image(method, list), exact_image(list));
-    let squares = ours.as_flattened().iter().zip(exact.as_flattened()).map(|(a, b)| (a - b).powi(2));
+    let squares = ours
+        .as_flattened()
+        .iter()
+        .zip(exact.as_flattened())
+        .map(|(a, b)| (a - b).powi(2));
     squares.sum::<f64>() / (3 * list.pixels()) as f64
 }
 
@@ -130,7 +145,10 @@ pub(crate) fn assert_converges(method: impl Fn(usize) -> Box<dyn Method>) {
 
 /// That the order of the fragments in the input changes nothing but rounding, but for ties.
 pub(crate) fn order_matters(method: &dyn Method, list: &FragmentList) -> bool {
-    !agree(image(method, list).as_flattened(), image(method, &reversed(list)).as_flattened())
+    !agree(
+        image(method, list).as_flattened(),
+        image(method, &reversed(list)).as_flattened(),
+    )
 }
 
 /// [`scene`] without ties.
@@ -140,5 +158,7 @@ pub(crate) fn untied(seed: u64) -> FragmentList {
     let mut rng = stream(seed, 78, 0);
     view_z.iter_mut().for_each(|v| *v = rng.random_range(1.0f32..9.0));
     let color = list.color().unwrap().to_vec();
-    FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), Some(color)).unwrap().with_planes(list.planes().unwrap())
+    FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), Some(color))
+        .unwrap()
+        .with_planes(list.planes().unwrap())
 }

@@ -9,12 +9,19 @@ use crate::moments::hamburger::PowerCurve;
 use crate::pixel::MomentDepth;
 
 /// Name on the command line.
-pub const ENTRY: Entry =
-    Entry { head: "two-moment-passes", pattern: "two-moment-passes[+own]", names: |head| vec![head.to_owned(), format!("{head}+own")], build };
+pub const ENTRY: Entry = Entry {
+    head: "two-moment-passes",
+    pattern: "two-moment-passes[+own]",
+    names: |head| vec![head.to_owned(), format!("{head}+own")],
+    build,
+};
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_argument()?;
-    Ok(Box::new(PerPixel { family: TwoMomentPasses, own: arguments.own }))
+    Ok(Box::new(PerPixel {
+        family: TwoMomentPasses,
+        own: arguments.own,
+    }))
 }
 
 /// Two sets of four moments. In the second each absorbance is weighted by the transmittance in front of it as the first set tells it; the second set gives the
@@ -33,7 +40,10 @@ struct Sets {
 
 /// What a fragment adds to the second set.
 fn dimmed(first: &PowerCurve<f64, 2>, sample: Sample) -> Sample {
-    Sample { absorbance: sample.absorbance * first.transmittance(sample.z, 0.0), ..sample }
+    Sample {
+        absorbance: sample.absorbance * first.transmittance(sample.z, 0.0),
+        ..sample
+    }
 }
 
 impl MomentBased for TwoMomentPasses {
@@ -51,7 +61,10 @@ impl MomentBased for TwoMomentPasses {
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Sets {
-        let mut sets = Sets { first: [0.0; 5], second: [0.0; 5] };
+        let mut sets = Sets {
+            first: [0.0; 5],
+            second: [0.0; 5],
+        };
         for &sample in samples {
             add(&mut sets.first, unit(sample));
         }
@@ -71,7 +84,15 @@ impl MomentBased for TwoMomentPasses {
     fn without(&self, sets: &Sets, own: Sample) -> Sets {
         let mut others = *sets;
         let own = unit(own);
-        let remove = |set: &mut [f64; 5], sample: Sample| add(set, Sample { absorbance: -sample.absorbance, ..sample });
+        let remove = |set: &mut [f64; 5], sample: Sample| {
+            add(
+                set,
+                Sample {
+                    absorbance: -sample.absorbance,
+                    ..sample
+                },
+            )
+        };
         remove(&mut others.first, own);
         remove(&mut others.second, dimmed(&PowerCurve::new(&sets.first, &BIAS), own));
         others

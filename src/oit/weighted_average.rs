@@ -17,7 +17,12 @@ pub const NAME: &str = "weighted-average";
 pub struct WeightedAverage;
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: NAME, names: |head| vec![head.to_owned()], build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: NAME,
+    names: |head| vec![head.to_owned()],
+    build,
+};
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_own()?;
@@ -79,7 +84,10 @@ mod tests {
         assert_close(&image(&WeightedAverage, &three())[0], &[5.0 / 12.0; 3]);
         // Unequal: ā = 1/2, colour (1/4 red + 3/4 green)/1
         let unequal = pixel(&[1.0, 2.0], &[0.25, 0.75], &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
-        assert_close(&image(&WeightedAverage, &unequal)[0], &[0.1875 + 0.25, 0.5625 + 0.25, 0.25]);
+        assert_close(
+            &image(&WeightedAverage, &unequal)[0],
+            &[0.1875 + 0.25, 0.5625 + 0.25, 0.25],
+        );
     }
 
     /// Exact where all opacities of a pixel are equal and its colours too; the control has unequal ones.
@@ -99,7 +107,10 @@ mod tests {
         assert_close(white.as_flattened(), &vec![1.0; 3 * white.len()]);
         assert_eq!(image(&WeightedAverage, &pixel(&[], &[], &[]))[0], WHITE);
         assert_eq!(image(&WeightedAverage, &pixel(&[1.0], &[0.0], &[[0.5; 3]]))[0], WHITE);
-        assert_close(&image(&WeightedAverage, &pixel(&[1.0, 2.0], &[1.0; 2], &[[0.5; 3]; 2]))[0], &[0.5; 3]);
+        assert_close(
+            &image(&WeightedAverage, &pixel(&[1.0, 2.0], &[1.0; 2], &[[0.5; 3]; 2]))[0],
+            &[0.5; 3],
+        );
         assert!(parse("weighted-average").is_ok() && parse("weighted-average:2").is_err());
     }
 }

@@ -48,7 +48,15 @@ pub enum Weight {
 
 impl Weight {
     /// Every weight.
-    pub const ALL: [Self; 7] = [Self::Mb13Eq7, Self::Mb13Eq8, Self::Mb13Eq9, Self::Mb13Eq10, Self::Dwb22, Self::Dwb22Small, Self::Dwb22Shader];
+    pub const ALL: [Self; 7] = [
+        Self::Mb13Eq7,
+        Self::Mb13Eq8,
+        Self::Mb13Eq9,
+        Self::Mb13Eq10,
+        Self::Dwb22,
+        Self::Dwb22Small,
+        Self::Dwb22Shader,
+    ];
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
@@ -99,7 +107,12 @@ pub struct WeightedBlended {
 }
 
 /// The method by its name.
-pub const ENTRY: Entry = Entry { head: NAME, pattern: "weighted-blended[:WEIGHT]", names, build };
+pub const ENTRY: Entry = Entry {
+    head: NAME,
+    pattern: "weighted-blended[:WEIGHT]",
+    names,
+    build,
+};
 
 fn names(head: &str) -> Vec<String> {
     Weight::ALL.map(|w| format!("{head}:{}", w.name())).to_vec()
@@ -132,7 +145,11 @@ impl Method for WeightedBlended {
         false
     }
 
-    fn accumulate<'a>(&'a self, list: &'a FragmentList, context: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         let planes = context.planes_for(list);
         let mut weights = vec![0.0; list.len()];
         list.par_pixels(0..list.pixels(), &mut weights, 1, |_, pixel, out| {
@@ -141,7 +158,10 @@ impl Method for WeightedBlended {
             }
             Ok(())
         })
-        .map_err(|source| MethodError::Depth { method: self.name(), source })?;
+        .map_err(|source| MethodError::Depth {
+            method: self.name(),
+            source,
+        })?;
         Ok(Box::new(Weighted { list, weights }))
     }
 }
@@ -197,7 +217,11 @@ mod tests {
             (Weight::Dwb22Shader, 2001.0, 0.005),
         ] {
             let z: f64 = z;
-            assert!((of(weight, z as f32) / expected - 1.0).abs() < 2e-7, "{weight:?} at {z}: {} against {expected}", of(weight, z as f32));
+            assert!(
+                (of(weight, z as f32) / expected - 1.0).abs() < 2e-7,
+                "{weight:?} at {z}: {} against {expected}",
+                of(weight, z as f32)
+            );
         }
     }
 
@@ -218,9 +242,15 @@ mod tests {
             assert_close(&image(&blended(weight), &one())[0], &[0.625, 0.5, 0.5]);
             let w = |z| weight.of(z, 0.5, two().planes()).unwrap();
             let total = w(1.0) + w(2.0);
-            assert_close(&image(&blended(weight), &two())[0], &[0.75 * w(1.0) / total + 0.25, 0.75 * w(2.0) / total + 0.25, 0.25]);
+            assert_close(
+                &image(&blended(weight), &two())[0],
+                &[0.75 * w(1.0) / total + 0.25, 0.75 * w(2.0) / total + 0.25, 0.25],
+            );
             let total = total + w(4.0);
-            assert_close(&image(&blended(weight), &three())[0], &[1.0, 2.0, 4.0].map(|z| 0.875 * w(z) / total + 0.125));
+            assert_close(
+                &image(&blended(weight), &three())[0],
+                &[1.0, 2.0, 4.0].map(|z| 0.875 * w(z) / total + 0.125),
+            );
         }
         // A constant weight gives the mean.
         assert_close(&image(&blended(Weight::Dwb22), &two())[0], &[0.625, 0.625, 0.25]);
@@ -233,9 +263,15 @@ mod tests {
         let painted = painted(&list, [0.25, 0.5, 1.0]);
         for weight in Weight::ALL {
             let method = blended(weight);
-            assert_close(image(&method, &painted).as_flattened(), normalised(&painted).as_flattened());
+            assert_close(
+                image(&method, &painted).as_flattened(),
+                normalised(&painted).as_flattened(),
+            );
             assert!(!order_matters(&method, &list), "{weight:?}");
-            assert!(!agree(image(&method, &list).as_flattened(), exact_image(&list).as_flattened()), "{weight:?} is no A-buffer");
+            assert!(
+                !agree(image(&method, &list).as_flattened(), exact_image(&list).as_flattened()),
+                "{weight:?} is no A-buffer"
+            );
             assert!(!method.weights_are_transmittance());
         }
     }
@@ -243,7 +279,9 @@ mod tests {
     /// (1 − e^−b0) C + e^−b0 C_bg.
     fn normalised(painted: &FragmentList) -> Vec<[f64; 3]> {
         let behind = |p| (-crate::pixel::abuffer::total_absorbance(painted.pixel(p))).exp();
-        (0..painted.pixels()).map(|p| [0.25, 0.5, 1.0].map(|c| (1.0 - behind(p)) * c + behind(p))).collect()
+        (0..painted.pixels())
+            .map(|p| [0.25, 0.5, 1.0].map(|c| (1.0 - behind(p)) * c + behind(p)))
+            .collect()
     }
 
     #[test]
@@ -253,9 +291,19 @@ mod tests {
             let result = blended(weight).accumulate(&list, Context::default()).map(drop);
             assert_eq!(result.is_err(), weight == Weight::Mb13Eq10, "{weight:?}");
         }
-        let outside = Context { planes: CameraPlanes::new(2.0, 3.0).ok(), ..Context::default() };
-        let error = blended(Weight::Mb13Eq10).accumulate(&list, outside).map(drop).unwrap_err().to_string();
-        assert!(error.starts_with("weighted-blended:mb13-10: view_z = 1 lies outside"), "{error}");
+        let outside = Context {
+            planes: CameraPlanes::new(2.0, 3.0).ok(),
+            ..Context::default()
+        };
+        let error = blended(Weight::Mb13Eq10)
+            .accumulate(&list, outside)
+            .map(drop)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.starts_with("weighted-blended:mb13-10: view_z = 1 lies outside"),
+            "{error}"
+        );
     }
 
     #[test]

@@ -60,9 +60,20 @@ mod tests {
     fn lanes_follow_the_scalar() {
         use crate::numeric::lanes::{LANES, Lanes};
         use fearless_simd::{Level, dispatch};
-        let mut alphas: Vec<f32> = (0..200_000u32).map(|i| f32::from_bits(0x0080_0000 + i * 5240)).collect();
+        let mut alphas: Vec<f32> = (0..200_000u32)
+            .map(|i| f32::from_bits(0x0080_0000 + i * 5240))
+            .collect();
         alphas.extend((0..200_000).map(|i| i as f32 / 2e5));
-        alphas.extend([0.0, 1.0, 1.0 - f32::EPSILON, 0.999_954_6, 0.999_95, 1e-39, f32::MIN_POSITIVE, 0.5]);
+        alphas.extend([
+            0.0,
+            1.0,
+            1.0 - f32::EPSILON,
+            0.999_954_6,
+            0.999_95,
+            1e-39,
+            f32::MIN_POSITIVE,
+            0.5,
+        ]);
         alphas.retain(|a| *a <= 1.0);
         alphas.truncate(alphas.len() / LANES * LANES);
         let run = |alpha: &[f32]| -> Vec<f32> {
@@ -75,8 +86,14 @@ mod tests {
             out
         };
         let worst = |found: &[f32]| {
-            let off = |(f, &a): (&f32, &f32)| (f64::from(*f) - absorbance(a)).abs() / (absorbance(a) * f64::from(f32::EPSILON)).max(1e-38);
-            found.iter().zip(&alphas).map(off).fold(0.0, |m: f64, e| if e.is_nan() { f64::INFINITY } else { m.max(e) })
+            let off = |(f, &a): (&f32, &f32)| {
+                (f64::from(*f) - absorbance(a)).abs() / (absorbance(a) * f64::from(f32::EPSILON)).max(1e-38)
+            };
+            found
+                .iter()
+                .zip(&alphas)
+                .map(off)
+                .fold(0.0, |m: f64, e| if e.is_nan() { f64::INFINITY } else { m.max(e) })
         };
         let found = run(&alphas);
         assert!(found.len() > 390_000 && worst(&found) <= 4.0, "{}", worst(&found));

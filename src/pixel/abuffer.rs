@@ -71,10 +71,15 @@ pub fn list_front_to_back_factor(list: &FragmentList) -> Vec<f64> {
 
 fn of_list(list: &FragmentList, f: fn(Pixel<'_>, &mut [f64])) -> Vec<f64> {
     let mut out = vec![0.0; list.len()];
-    let Ok(()) = list.par_pixels(0..list.pixels(), &mut out, 1, |_, pixel, out| -> Result<(), Infallible> {
-        f(pixel, out);
-        Ok(())
-    });
+    let Ok(()) = list.par_pixels(
+        0..list.pixels(),
+        &mut out,
+        1,
+        |_, pixel, out| -> Result<(), Infallible> {
+            f(pixel, out);
+            Ok(())
+        },
+    );
     out
 }
 
@@ -119,7 +124,11 @@ pub fn composite(pixel: Pixel<'_>, background: [f64; 3]) -> [f64; 3] {
 pub fn front_to_back(pixel: Pixel<'_>, order: &mut Vec<u32>) {
     order.clear();
     order.extend(0..pixel.len() as u32);
-    order.sort_unstable_by(|&a, &b| pixel.view_z[a as usize].total_cmp(&pixel.view_z[b as usize]).then(a.cmp(&b)));
+    order.sort_unstable_by(|&a, &b| {
+        pixel.view_z[a as usize]
+            .total_cmp(&pixel.view_z[b as usize])
+            .then(a.cmp(&b))
+    });
 }
 
 #[cfg(test)]
@@ -129,7 +138,14 @@ mod tests {
 
     fn truth(view_z: &[f32], alpha: &[f32]) -> Vec<f64> {
         let mut out = vec![f64::NAN; view_z.len()];
-        transmittance(Pixel { view_z, alpha, color: None }, &mut out);
+        transmittance(
+            Pixel {
+                view_z,
+                alpha,
+                color: None,
+            },
+            &mut out,
+        );
         out
     }
 
@@ -157,11 +173,18 @@ mod tests {
     /// The front-to-back factor breaks ties as the composite does, and is T where there are none.
     #[test]
     fn front_to_back_factors_break_ties() {
-        let pixel = Pixel { view_z: &[2.0, 1.0, 2.0, 3.0], alpha: &[0.5; 4], color: None };
+        let pixel = Pixel {
+            view_z: &[2.0, 1.0, 2.0, 3.0],
+            alpha: &[0.5; 4],
+            color: None,
+        };
         let mut factor = [f64::NAN; 4];
         front_to_back_factor(pixel, &mut factor);
         let expected = [0.5, 1.0, 0.25, 0.125];
-        assert!(factor.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-15), "{factor:?}");
+        assert!(
+            factor.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-15),
+            "{factor:?}"
+        );
         let list = FragmentList::new(vec![0, 0, 4], pixel.view_z.to_vec(), pixel.alpha.to_vec(), None).unwrap();
         assert_eq!(list_front_to_back_factor(&list), factor);
         assert_ne!(list_transmittance(&list), factor);
@@ -178,7 +201,11 @@ mod tests {
     fn empty_and_single() {
         assert!(truth(&[], &[]).is_empty());
         assert_eq!(truth(&[5.0], &[0.7]), [1.0]);
-        let empty = Pixel { view_z: &[], alpha: &[], color: None };
+        let empty = Pixel {
+            view_z: &[],
+            alpha: &[],
+            color: None,
+        };
         assert_eq!(composite(empty, [0.1, 0.2, 0.3]), [0.1, 0.2, 0.3]);
     }
 
@@ -186,14 +213,25 @@ mod tests {
     #[test]
     fn over_operator() {
         let color = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
-        let behind = Pixel { view_z: &[2.0, 1.0], alpha: &[0.5, 0.5], color: Some(&color) };
+        let behind = Pixel {
+            view_z: &[2.0, 1.0],
+            alpha: &[0.5, 0.5],
+            color: Some(&color),
+        };
         assert_close(composite(behind, [1.0; 3]), [0.75, 0.5, 0.25]);
-        let tied = Pixel { view_z: &[1.0, 1.0], alpha: &[0.5, 0.5], color: Some(&color) };
+        let tied = Pixel {
+            view_z: &[1.0, 1.0],
+            alpha: &[0.5, 0.5],
+            color: Some(&color),
+        };
         assert_close(composite(tied, [1.0; 3]), [0.5, 0.75, 0.25]);
     }
 
     fn assert_close(a: [f64; 3], b: [f64; 3]) {
-        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15), "{a:?} against {b:?}");
+        assert!(
+            a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-15),
+            "{a:?} against {b:?}"
+        );
     }
 
     proptest! {

@@ -23,7 +23,9 @@ pub enum DepthError {
     #[error("window depth needs the camera planes, which the fragment list does not carry; pass --near and --far")]
     NoPlanes,
     /// Relative depth was asked for and no range is known.
-    #[error("relative depth needs a range of view depths, and neither the fragment list nor the caller gives one; pass --depth-range")]
+    #[error(
+        "relative depth needs a range of view depths, and neither the fragment list nor the caller gives one; pass --depth-range"
+    )]
     NoRange,
     /// The planes are not 0 < near < far, or not finite.
     #[error("camera planes near = {near}, far = {far}: expected 0 < near < far, both finite")]
@@ -78,7 +80,10 @@ impl CameraPlanes {
         if self.near > 0.0 && self.near < self.far && self.far.is_finite() {
             Ok(self)
         } else {
-            Err(DepthError::BadPlanes { near: self.near.into(), far: self.far.into() })
+            Err(DepthError::BadPlanes {
+                near: self.near.into(),
+                far: self.far.into(),
+            })
         }
     }
 
@@ -124,7 +129,9 @@ impl CameraPlanes {
     pub fn view_z_doubles<S: Simd>(&self, simd: S, w: f64x8<S>) -> f64x8<S> {
         let (near, far) = (f64::from(self.near), f64::from(self.far));
         let splat = |x: f64| f64x8::splat(simd, x);
-        (splat(near * far) / (splat(far) - w * splat(far - near))).max(splat(near)).min(splat(far))
+        (splat(near * far) / (splat(far) - w * splat(far - near)))
+            .max(splat(near))
+            .min(splat(far))
     }
 }
 
@@ -156,7 +163,11 @@ impl LogWarp {
             return Err(DepthError::BadRange { v0, v1 });
         }
         let log_ratio = libm::log(v1 / v0);
-        Ok(Self { v0, log_ratio, inverse_log_ratio: if log_ratio > 0.0 { 1.0 / log_ratio } else { 0.0 } })
+        Ok(Self {
+            v0,
+            log_ratio,
+            inverse_log_ratio: if log_ratio > 0.0 { 1.0 / log_ratio } else { 0.0 },
+        })
     }
 
     /// Moment depth of a view depth, clamped to [−1, 1].
@@ -208,12 +219,22 @@ mod tests {
 
     #[test]
     fn planes_and_ranges_are_validated() {
-        for (near, far) in [(0.0, 1.0), (-1.0, 1.0), (2.0, 1.0), (1.0, 1.0), (f32::NAN, 1.0), (1.0, f32::INFINITY)] {
+        for (near, far) in [
+            (0.0, 1.0),
+            (-1.0, 1.0),
+            (2.0, 1.0),
+            (1.0, 1.0),
+            (f32::NAN, 1.0),
+            (1.0, f32::INFINITY),
+        ] {
             assert!(CameraPlanes::new(near, far).is_err(), "{near} {far}");
         }
         assert!(LogWarp::new(ViewZ(2.0), ViewZ(1.0)).is_err());
         assert!(LogWarp::new(ViewZ(0.0), ViewZ(1.0)).is_err());
-        assert_eq!(LogWarp::new(ViewZ(3.0), ViewZ(3.0)).unwrap().moment(ViewZ(3.0)), MomentDepth(0.0));
+        assert_eq!(
+            LogWarp::new(ViewZ(3.0), ViewZ(3.0)).unwrap().moment(ViewZ(3.0)),
+            MomentDepth(0.0)
+        );
     }
 
     #[test]
@@ -229,7 +250,10 @@ mod tests {
     fn doubles_follow_the_scalar() {
         use fearless_simd::{Level, dispatch};
         let planes = CameraPlanes::new(0.1, 100.0).unwrap();
-        let (warp, other) = (LogWarp::new(ViewZ(0.1), ViewZ(100.0)).unwrap(), LogWarp::new(ViewZ(0.1), ViewZ(101.0)).unwrap());
+        let (warp, other) = (
+            LogWarp::new(ViewZ(0.1), ViewZ(100.0)).unwrap(),
+            LogWarp::new(ViewZ(0.1), ViewZ(101.0)).unwrap(),
+        );
         for level in [Level::new(), Level::baseline()] {
             for i in (0..8000).step_by(8) {
                 let w: [f64; 8] = std::array::from_fn(|lane| (i + lane) as f64 / 7999.0);

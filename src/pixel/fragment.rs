@@ -144,7 +144,12 @@ impl FragmentList {
     ///
     /// # Errors
     /// [`FragmentError`] names the first entry that is out of its domain.
-    pub fn new(offsets: Vec<u64>, view_z: Vec<f32>, alpha: Vec<f32>, color: Option<Vec<[f32; 3]>>) -> Result<Self, FragmentError> {
+    pub fn new(
+        offsets: Vec<u64>,
+        view_z: Vec<f32>,
+        alpha: Vec<f32>,
+        color: Option<Vec<[f32; 3]>>,
+    ) -> Result<Self, FragmentError> {
         let fragments = view_z.len();
         match offsets.first() {
             None => return Err(FragmentError::NoOffsets),
@@ -152,13 +157,20 @@ impl FragmentList {
             Some(&first) => return Err(FragmentError::FirstOffset(first)),
         }
         if let Some(i) = offsets.windows(2).position(|w| w[1] < w[0]) {
-            return Err(FragmentError::OffsetsFall { index: i + 1, value: offsets[i + 1], previous: offsets[i] });
+            return Err(FragmentError::OffsetsFall {
+                index: i + 1,
+                value: offsets[i + 1],
+                previous: offsets[i],
+            });
         }
         let last = offsets[offsets.len() - 1];
         if last != fragments as u64 {
             return Err(FragmentError::LastOffset { last, fragments });
         }
-        let lengths = [("alpha", alpha.len()), ("color", color.as_ref().map_or(fragments, Vec::len))];
+        let lengths = [
+            ("alpha", alpha.len()),
+            ("color", color.as_ref().map_or(fragments, Vec::len)),
+        ];
         for (name, len) in lengths {
             if len != fragments {
                 return Err(FragmentError::Length { name, len, fragments });
@@ -166,17 +178,36 @@ impl FragmentList {
         }
         let pixel = |index: usize| offsets.partition_point(|&o| o <= index as u64) - 1;
         if let Some(index) = first_outside(&view_z, |v| (v > 0.0) & (v < f32::INFINITY)) {
-            return Err(FragmentError::ViewZ { index, pixel: pixel(index), value: view_z[index] });
+            return Err(FragmentError::ViewZ {
+                index,
+                pixel: pixel(index),
+                value: view_z[index],
+            });
         }
         if let Some(index) = first_outside(&alpha, |a| (0.0..=1.0).contains(&a)) {
-            return Err(FragmentError::Alpha { index, pixel: pixel(index), value: alpha[index] });
+            return Err(FragmentError::Alpha {
+                index,
+                pixel: pixel(index),
+                value: alpha[index],
+            });
         }
         if let Some(color) = &color
             && let Some(index) = color.iter().position(|c| c.iter().any(|x| !(0.0..=1.0).contains(x)))
         {
-            return Err(FragmentError::Color { index, pixel: pixel(index), value: color[index] });
+            return Err(FragmentError::Color {
+                index,
+                pixel: pixel(index),
+                value: color[index],
+            });
         }
-        Ok(Self { offsets, view_z, alpha, color, size: None, planes: None })
+        Ok(Self {
+            offsets,
+            view_z,
+            alpha,
+            color,
+            size: None,
+            planes: None,
+        })
     }
 
     /// The same list as an image, row by row from the top.
@@ -205,10 +236,19 @@ impl FragmentList {
         let join = |a: &[f32], b: &[f32]| [a, b].concat();
         let start = self.len() as u64;
         Self {
-            offsets: self.offsets.iter().copied().chain(other.offsets[1..].iter().map(|o| start + o)).collect(),
+            offsets: self
+                .offsets
+                .iter()
+                .copied()
+                .chain(other.offsets[1..].iter().map(|o| start + o))
+                .collect(),
             view_z: join(&self.view_z, &other.view_z),
             alpha: join(&self.alpha, &other.alpha),
-            color: self.color.as_ref().zip(other.color.as_ref()).map(|(a, b)| [a.as_slice(), b].concat()),
+            color: self
+                .color
+                .as_ref()
+                .zip(other.color.as_ref())
+                .map(|(a, b)| [a.as_slice(), b].concat()),
             size: None,
             planes: self.planes,
         }
@@ -243,7 +283,11 @@ impl FragmentList {
     /// If p is not less than [`Self::pixels`].
     pub fn pixel(&self, p: usize) -> Pixel<'_> {
         let range = self.range(p);
-        Pixel { view_z: &self.view_z[range.clone()], alpha: &self.alpha[range.clone()], color: self.color.as_ref().map(|c| &c[range]) }
+        Pixel {
+            view_z: &self.view_z[range.clone()],
+            alpha: &self.alpha[range.clone()],
+            color: self.color.as_ref().map(|c| &c[range]),
+        }
     }
 
     /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of an array that holds `width`
@@ -272,7 +316,9 @@ impl FragmentList {
                 jobs.push((p, own));
             }
         }
-        jobs.into_par_iter().with_min_len(64).try_for_each(|(p, out)| f(p, self.pixel(p), out))
+        jobs.into_par_iter()
+            .with_min_len(64)
+            .try_for_each(|(p, out)| f(p, self.pixel(p), out))
     }
 
     /// Pixel p holds fragments `offsets[p]..offsets[p + 1]`.
@@ -307,20 +353,30 @@ impl FragmentList {
 
     /// Greatest number of fragments in a pixel (the depth complexity).
     pub fn depth_complexity(&self) -> usize {
-        self.offsets.windows(2).map(|w| (w[1] - w[0]) as usize).max().unwrap_or(0)
+        self.offsets
+            .windows(2)
+            .map(|w| (w[1] - w[0]) as usize)
+            .max()
+            .unwrap_or(0)
     }
 
     /// Least and greatest view depth of the whole list; none where it has no fragment.
     pub fn depth_range(&self) -> Option<(f32, f32)> {
         let first = *self.view_z.first()?;
-        Some(self.view_z.iter().fold((first, first), |(lo, hi), &v| (lo.min(v), hi.max(v))))
+        Some(
+            self.view_z
+                .iter()
+                .fold((first, first), |(lo, hi), &v| (lo.min(v), hi.max(v))),
+        )
     }
 }
 
 /// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop runs on SIMD lanes.
 fn first_outside(values: &[f32], domain: impl Fn(f32) -> bool) -> Option<usize> {
     const CHUNK: usize = 1024;
-    let chunk = values.chunks(CHUNK).position(|chunk| !chunk.iter().fold(true, |all, &x| all & domain(x)))?;
+    let chunk = values
+        .chunks(CHUNK)
+        .position(|chunk| !chunk.iter().fold(true, |all, &x| all & domain(x)))?;
     (chunk * CHUNK..values.len()).find(|&i| !domain(values[i]))
 }
 
@@ -341,7 +397,10 @@ mod tests {
         assert_eq!(ties.range(1), 0..2);
         assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
         let twice = ties.followed_by(&ties);
-        assert_eq!((twice.pixels(), twice.len(), twice.range(4), twice.range(5)), (6, 6, 3..5, 5..6));
+        assert_eq!(
+            (twice.pixels(), twice.len(), twice.range(4), twice.range(5)),
+            (6, 6, 3..5, 5..6)
+        );
     }
 
     /// In whatever chunk it lies, and before any later one.
@@ -361,7 +420,10 @@ mod tests {
         let cases = [
             (list(&[], &[], &[]), "offsets is empty"),
             (list(&[1, 1], &[1.0], &[0.5]), "offsets[0] = 1"),
-            (list(&[0, 2, 1, 2], &[1.0, 1.0], &[0.5, 0.5]), "offsets[2] = 1 is less than offsets[1] = 2"),
+            (
+                list(&[0, 2, 1, 2], &[1.0, 1.0], &[0.5, 0.5]),
+                "offsets[2] = 1 is less than offsets[1] = 2",
+            ),
             (list(&[0, 3], &[1.0], &[0.5]), "the last offset is 3, but there are 1"),
             (list(&[0, 1], &[1.0], &[]), "alpha holds 0 entries"),
             (list(&[0, 0, 1], &[f32::NAN], &[0.5]), "view_z[0] = NaN (pixel 1)"),

@@ -69,7 +69,13 @@ impl Histogram {
             p95: at(0.95),
             max: at(1.0),
         });
-        Self { quantity, of, edges, counts, quantiles }
+        Self {
+            quantity,
+            of,
+            edges,
+            counts,
+            quantiles,
+        }
     }
 }
 
@@ -142,10 +148,22 @@ pub struct Facts {
 /// [`ProfileError::Depth`] where the range of depth is none.
 pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
     let list = scene.list;
-    let extractor = Extractor::for_list(FeatureSet::Recentred, list, scene.context.planes, scene.context.depth_range)?;
+    let extractor = Extractor::for_list(
+        FeatureSet::Recentred,
+        list,
+        scene.context.planes,
+        scene.context.depth_range,
+    )?;
     let passes = extractor.passes().expect("made for recentred features");
     let (mut out, mut class) = (vec![0.0; list.len()], vec![Class::Network; list.len()]);
-    passes.run(list, 0..list.pixels(), Skip::Visible.switches(), || Silent, &mut out, &mut class);
+    passes.run(
+        list,
+        0..list.pixels(),
+        Skip::Visible.switches(),
+        || Silent,
+        &mut out,
+        &mut class,
+    );
     drop(out);
 
     let covered: Vec<usize> = (0..list.pixels()).filter(|&p| !list.range(p).is_empty()).collect();
@@ -153,21 +171,48 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
     let range = scene.context.depth_range.or(list.depth_range());
     let warp = range.and_then(|(a, b)| crate::pixel::LogWarp::new(ViewZ(a.into()), ViewZ(b.into())).ok());
     let half = |p: usize| {
-        let (near, far) = list.pixel(p).view_z.iter().fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
-        warp.map_or(0.0, |w| 0.5 * (w.moment(ViewZ(far.into())).0 - w.moment(ViewZ(near.into())).0))
+        let (near, far) = list
+            .pixel(p)
+            .view_z
+            .iter()
+            .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
+        warp.map_or(0.0, |w| {
+            0.5 * (w.moment(ViewZ(far.into())).0 - w.moment(ViewZ(near.into())).0)
+        })
     };
     let several: Vec<usize> = covered.iter().copied().filter(|&p| list.range(p).len() > 1).collect();
-    let decades = |from: i32, to: i32| (2 * from..=2 * to).map(|e| 10f64.powf(0.5 * f64::from(e))).collect::<Vec<_>>();
+    let decades = |from: i32, to: i32| {
+        (2 * from..=2 * to)
+            .map(|e| 10f64.powf(0.5 * f64::from(e)))
+            .collect::<Vec<_>>()
+    };
     let histograms = vec![
         Histogram::of(
             "fragments",
             "covered pixels",
-            vec![1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 13.0, 17.0, 25.0, 33.0, 49.0, 65.0, 97.0, 129.0, 193.0, 257.0, 1e6],
+            vec![
+                1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 13.0, 17.0, 25.0, 33.0, 49.0, 65.0, 97.0, 129.0, 193.0, 257.0, 1e6,
+            ],
             covered.iter().map(|&p| list.range(p).len() as f64).collect(),
         ),
-        Histogram::of("alpha", "fragments", (0..=20).map(|i| 0.05 * f64::from(i)).collect(), list.alpha().iter().map(|&a| a.into()).collect()),
-        Histogram::of("absorbance", "covered pixels", decades(-3, 3), covered.iter().map(|&p| total(p)).collect()),
-        Histogram::of("half range in moment depth", "pixels of two and more", decades(-6, 0), several.iter().map(|&p| half(p)).collect()),
+        Histogram::of(
+            "alpha",
+            "fragments",
+            (0..=20).map(|i| 0.05 * f64::from(i)).collect(),
+            list.alpha().iter().map(|&a| a.into()).collect(),
+        ),
+        Histogram::of(
+            "absorbance",
+            "covered pixels",
+            decades(-3, 3),
+            covered.iter().map(|&p| total(p)).collect(),
+        ),
+        Histogram::of(
+            "half range in moment depth",
+            "pixels of two and more",
+            decades(-6, 0),
+            several.iter().map(|&p| half(p)).collect(),
+        ),
     ];
 
     let (mut counts, mut behind_opaque) = ([0u64; 10], 0u64);
@@ -189,7 +234,11 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             }] += 1;
         }
         abuffer::front_to_back(pixel, &mut order);
-        let opaque = order.iter().map(|&i| i as usize).find(|&i| absorbance(pixel.alpha[i]) >= OPAQUE).map(|i| pixel.view_z[i]);
+        let opaque = order
+            .iter()
+            .map(|&i| i as usize)
+            .find(|&i| absorbance(pixel.alpha[i]) >= OPAQUE)
+            .map(|i| pixel.view_z[i]);
         behind_opaque += opaque.map_or(0, |v| pixel.view_z.iter().filter(|&&w| w > v).count() as u64);
     }
     const NAMES: [(&str, &str); 10] = [
@@ -205,15 +254,37 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
         ("the rest", "network"),
     ];
     let share = |n: u64| n as f64 / list.len().max(1) as f64;
-    let classes = NAMES.into_iter().zip(counts).map(|((class, answer), n)| Share { class, answer, fragments: n, share: share(n) }).collect();
+    let classes = NAMES
+        .into_iter()
+        .zip(counts)
+        .map(|((class, answer), n)| Share {
+            class,
+            answer,
+            fragments: n,
+            share: share(n),
+        })
+        .collect();
     let tiles = list.size().map(|(width, height)| {
-        let mut tiles = Tiles { tiles: 0, empty: 0, known: 0, known_or_unseen: 0 };
-        for (y, x) in (0..height).step_by(TILE as usize).flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x))) {
+        let mut tiles = Tiles {
+            tiles: 0,
+            empty: 0,
+            known: 0,
+            known_or_unseen: 0,
+        };
+        for (y, x) in (0..height)
+            .step_by(TILE as usize)
+            .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
+        {
             let (mut fragments, mut asked, mut shown) = (0, 0, 0);
-            for p in (y..height.min(y + TILE)).flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize)) {
+            for p in (y..height.min(y + TILE))
+                .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
+            {
                 let of = &class[list.range(p)];
                 fragments += of.len();
-                asked += of.iter().filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden)).count();
+                asked += of
+                    .iter()
+                    .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
+                    .count();
                 shown += of.iter().filter(|c| matches!(c, Class::Network)).count();
             }
             tiles.tiles += 1;
@@ -255,7 +326,10 @@ mod tests {
         let view_z = (0..n).map(|i| 1.0 + 0.37 * ((i * 7) % n) as f32).collect();
         let mut alpha = vec![0.5; n];
         alpha[1] = 1.0;
-        FragmentList::new(offsets, view_z, alpha, None).unwrap().with_size(10, 1).unwrap()
+        FragmentList::new(offsets, view_z, alpha, None)
+            .unwrap()
+            .with_size(10, 1)
+            .unwrap()
     }
 
     #[test]
@@ -268,13 +342,28 @@ mod tests {
         assert!((facts.empty_pixels - 0.5).abs() < 1e-12);
         assert!((facts.classes.iter().map(|c| c.share).sum::<f64>() - 1.0).abs() < 1e-12);
         let tiles = facts.tiles.unwrap();
-        assert_eq!(tiles, Tiles { tiles: 2, empty: 0, known: 1, known_or_unseen: 1 });
+        assert_eq!(
+            tiles,
+            Tiles {
+                tiles: 2,
+                empty: 0,
+                known: 1,
+                known_or_unseen: 1
+            }
+        );
         assert_eq!((tiles.saved(Skip::None), tiles.saved(Skip::Exact)), (0.0, 0.5));
         let of_fragments = &facts.histograms[0];
         assert_eq!(of_fragments.counts[..5], [1, 1, 1, 1, 1]);
         assert_eq!(of_fragments.counts.iter().sum::<u64>(), 5);
         // The opaque one of the pixel of two lies in front of the other.
-        assert_eq!(facts.behind_opaque, if list.view_z()[1] < list.view_z()[2] { 1.0 / 16.0 } else { 0.0 });
+        assert_eq!(
+            facts.behind_opaque,
+            if list.view_z()[1] < list.view_z()[2] {
+                1.0 / 16.0
+            } else {
+                0.0
+            }
+        );
     }
 
     #[test]
@@ -282,12 +371,22 @@ mod tests {
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap();
         let facts = facts(&Scene::new(&none, Context::default(), [1.0; 3])).unwrap();
         assert_eq!((facts.pixels, facts.fragments, facts.tiles), (0, 0, None));
-        assert!(facts.histograms.iter().all(|h| h.quantiles.is_none() && h.counts.iter().all(|&n| n == 0)));
+        assert!(
+            facts
+                .histograms
+                .iter()
+                .all(|h| h.quantiles.is_none() && h.counts.iter().all(|&n| n == 0))
+        );
     }
 
     #[test]
     fn values_on_an_edge_belong_above_it() {
-        let h = Histogram::of("x", "y", vec![0.0, 1.0, 2.0, 3.0], vec![-1.0, 0.0, 1.0, 1.5, 2.0, 3.0, 9.0]);
+        let h = Histogram::of(
+            "x",
+            "y",
+            vec![0.0, 1.0, 2.0, 3.0],
+            vec![-1.0, 0.0, 1.0, 1.5, 2.0, 3.0, 9.0],
+        );
         assert_eq!(h.counts, [2, 2, 3]);
         let q = h.quantiles.unwrap();
         assert_eq!((q.min, q.median, q.max), (-1.0, 1.5, 9.0));

@@ -97,13 +97,23 @@ impl Errors {
 impl<'a> Scene<'a> {
     /// A list before a background.
     pub fn new(list: &'a FragmentList, context: Context, background: [f64; 3]) -> Self {
-        Self { list, context, truth: Truth::new(list, background), transmittance: abuffer::list_transmittance(list), background }
+        Self {
+            list,
+            context,
+            truth: Truth::new(list, background),
+            transmittance: abuffer::list_transmittance(list),
+            background,
+        }
     }
 
     /// The image that transmittances make, where the list makes one.
     pub fn image_of(&self, transmittance: &[f32]) -> Option<Result<Image, EvaluateError>> {
         let (width, height) = image::size_of(self.list).ok()?;
-        let pixels = (0..self.list.pixels()).into_par_iter().with_min_len(256).map(|p| self.color_of(p, transmittance)).collect();
+        let pixels = (0..self.list.pixels())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|p| self.color_of(p, transmittance))
+            .collect();
         Some(Image::new(width, height, pixels))
     }
 
@@ -119,12 +129,18 @@ impl<'a> Scene<'a> {
     /// [`EvaluateError`] where images cannot be compared.
     pub fn errors(&self, transmittance: &[f32]) -> Result<Errors, EvaluateError> {
         let mut of_t = AbsoluteError::default();
-        transmittance.iter().zip(&self.transmittance).for_each(|(&t, &e)| of_t.add(t.into(), e));
+        transmittance
+            .iter()
+            .zip(&self.transmittance)
+            .for_each(|(&t, &e)| of_t.add(t.into(), e));
         let image_mse = match (self.image_of(transmittance).transpose()?, self.truth.image()) {
             (Some(image), Ok(truth)) => Some(image.error(truth)?.mse()),
             _ => None,
         };
-        Ok(Errors { image_mse, transmittance_mse: of_t.mse() })
+        Ok(Errors {
+            image_mse,
+            transmittance_mse: of_t.mse(),
+        })
     }
 }
 
@@ -139,7 +155,10 @@ pub fn shipped() -> Result<Vec<Mlp>, ModelError> {
         include_str!("../../models/moments-6.json"),
         include_str!("../../models/paper.json"),
     ];
-    texts.into_iter().map(|text| file::from_json(text.as_bytes(), Path::new("a network of this program"))).collect()
+    texts
+        .into_iter()
+        .map(|text| file::from_json(text.as_bytes(), Path::new("a network of this program")))
+        .collect()
 }
 
 /// The middle of some samples, the mean of the two in the middle where their number is even; NaN of none.

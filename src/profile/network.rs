@@ -112,18 +112,30 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
     let is_transmittance = set.target() == crate::features::Target::Transmittance;
     let bits_per_pixel = method.bits_per_pixel();
     let mut stored = Vec::new();
-    if matches!(set, FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8) {
+    if matches!(
+        set,
+        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
+    ) {
         for storage in [Storage::F16, Storage::Unorm16] {
-            let answers = Neural::new(mlp.clone()).with_storage(storage).transmittance(scene.list, scene.context, &|_| {})?;
+            let answers =
+                Neural::new(mlp.clone())
+                    .with_storage(storage)
+                    .transmittance(scene.list, scene.context, &|_| {})?;
             let errors = scene.errors(&answers)?;
             let error = errors.image_mse.unwrap_or(errors.transmittance_mse);
-            stored.push(Stored { storage, bits_per_pixel: bits_per_pixel - 16 * set.moments() as u32, error });
+            stored.push(Stored {
+                storage,
+                bits_per_pixel: bits_per_pixel - 16 * set.moments() as u32,
+                error,
+            });
         }
     }
     let width = set.width();
     let columns = set.columns().iter().enumerate().map(|(c, name)| {
         let of = rows.features.iter().skip(c).step_by(width);
-        let (min, max) = of.fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
+        let (min, max) = of.fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &x| {
+            (lo.min(x), hi.max(x))
+        });
         Feature { name, min, max }
     });
     let fired = activity(mlp, &rows.features).fired;

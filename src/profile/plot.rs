@@ -66,7 +66,13 @@ fn panel(area: &Area<'_>, h: &Histogram) -> Result<(), PlotError> {
         .y_label_area_size(40)
         .build_cartesian_2d(first as f64..end as f64, 0.0..1.05 * most)
         .map_err(failed)?;
-    let edge = |x: &f64| if (x - x.round()).abs() < 1e-9 { tick(h.edges[(x.round() as usize).min(h.edges.len() - 1)]) } else { String::new() };
+    let edge = |x: &f64| {
+        if (x - x.round()).abs() < 1e-9 {
+            tick(h.edges[(x.round() as usize).min(h.edges.len() - 1)])
+        } else {
+            String::new()
+        }
+    };
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -79,7 +85,10 @@ fn panel(area: &Area<'_>, h: &Histogram) -> Result<(), PlotError> {
         .map_err(failed)?;
     let bars = h.counts[first..end].iter().enumerate().map(|(i, &n)| {
         let x = (first + i) as f64;
-        Rectangle::new([(x + 0.06, 0.0), (x + 0.94, 100.0 * n as f64 / all)], RGBColor(70, 110, 160).filled())
+        Rectangle::new(
+            [(x + 0.06, 0.0), (x + 0.94, 100.0 * n as f64 / all)],
+            RGBColor(70, 110, 160).filled(),
+        )
     });
     chart.draw_series(bars).map_err(failed)?;
     Ok(())
@@ -100,17 +109,31 @@ fn classes(area: &Area<'_>, facts: &Facts) -> Result<(), PlotError> {
         RGBColor(214, 96, 77),
     ];
     let dark = ("sans-serif", 14).into_font().color(&BLACK);
-    area.draw(&Text::new("How every fragment is answered", (60, 6), ("sans-serif", 15).into_font().color(&BLACK))).map_err(failed)?;
+    area.draw(&Text::new(
+        "How every fragment is answered",
+        (60, 6),
+        ("sans-serif", 15).into_font().color(&BLACK),
+    ))
+    .map_err(failed)?;
     let (left, width) = (60.0, 880.0);
     let mut at = left;
     for (i, class) in facts.classes.iter().enumerate() {
         let end = at + width * class.share;
-        area.draw(&Rectangle::new([(at as i32, 30), (end as i32, 62)], COLORS[i % COLORS.len()].filled())).map_err(failed)?;
+        area.draw(&Rectangle::new(
+            [(at as i32, 30), (end as i32, 62)],
+            COLORS[i % COLORS.len()].filled(),
+        ))
+        .map_err(failed)?;
         at = end;
         let (x, y) = (60 + 450 * (i as i32 % 2), 78 + 24 * (i as i32 / 2));
-        area.draw(&Rectangle::new([(x, y), (x + 14, y + 14)], COLORS[i % COLORS.len()].filled())).map_err(failed)?;
+        area.draw(&Rectangle::new(
+            [(x, y), (x + 14, y + 14)],
+            COLORS[i % COLORS.len()].filled(),
+        ))
+        .map_err(failed)?;
         let legend = format!("{}: {:.1} % ({})", class.class, 100.0 * class.share, class.answer);
-        area.draw(&Text::new(legend, (x + 22, y), dark.clone())).map_err(failed)?;
+        area.draw(&Text::new(legend, (x + 22, y), dark.clone()))
+            .map_err(failed)?;
     }
     Ok(())
 }
@@ -131,11 +154,20 @@ mod tests {
         assert!(facts.classes.iter().all(|c| text.contains(c.class)));
         assert_eq!(text, svg("three fragments", &facts).unwrap());
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap();
-        assert!(svg("nothing", &super::super::facts(&Scene::new(&none, Context::default(), [1.0; 3])).unwrap()).is_ok());
+        assert!(
+            svg(
+                "nothing",
+                &super::super::facts(&Scene::new(&none, Context::default(), [1.0; 3])).unwrap()
+            )
+            .is_ok()
+        );
     }
 
     #[test]
     fn ticks_are_short() {
-        assert_eq!([0.0, 5.0, 0.25, 1e-4, 30_000.0].map(tick), ["0", "5", "0.25", "1e-4", "3e4"]);
+        assert_eq!(
+            [0.0, 5.0, 0.25, 1e-4, 30_000.0].map(tick),
+            ["0", "5", "0.25", "1e-4", "3e4"]
+        );
     }
 }

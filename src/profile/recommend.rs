@@ -40,12 +40,20 @@ const UNSEEN_ERROR: f64 = 1.0 / (512.0 * 512.0);
 
 /// Chooses among networks. Where no `target_error` is given it is half a display step, squared, or a fifth more than the least error of any if that is greater.
 pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64>) -> Recommendation {
-    let judged: Vec<(usize, f64)> =
-        networks.iter().enumerate().filter_map(|(i, n)| n.error().map(|e| (i, e))).filter(|(_, e)| e.is_finite()).collect();
+    let judged: Vec<(usize, f64)> = networks
+        .iter()
+        .enumerate()
+        .filter_map(|(i, n)| n.error().map(|e| (i, e)))
+        .filter(|(_, e)| e.is_finite())
+        .collect();
     let least = judged.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
     let target = target_error.unwrap_or_else(|| UNSEEN_ERROR.max(1.2 * least.map_or(0.0, |l| l.1)));
     let cost = |i: usize| (networks[i].multiply_adds, networks[i].bits_per_pixel);
-    let keeping = judged.iter().copied().filter(|&(_, e)| e <= target).min_by_key(|&(i, _)| cost(i));
+    let keeping = judged
+        .iter()
+        .copied()
+        .filter(|&(_, e)| e <= target)
+        .min_by_key(|&(i, _)| cost(i));
     let chosen = keeping.or(least);
     let share = |class: &str| facts.classes.iter().find(|c| c.class == class).map_or(0.0, |c| c.share);
     let (network, faint, hidden) = (share("the rest"), share("of a faint pixel"), share("hidden"));
@@ -59,9 +67,15 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
         percent(share("one of three") + share("one of four")),
     ));
     if faint + hidden > 0.005 {
-        words.push(format!("{} more cannot be seen: use --skip visible.", percent(faint + hidden)));
+        words.push(format!(
+            "{} more cannot be seen: use --skip visible.",
+            percent(faint + hidden)
+        ));
     } else {
-        words.push(format!("Hardly anything ({}) is provably invisible: --skip exact is enough.", percent(faint + hidden)));
+        words.push(format!(
+            "Hardly anything ({}) is provably invisible: --skip exact is enough.",
+            percent(faint + hidden)
+        ));
     }
     if facts.unseen > 0.05 {
         words.push(format!(
@@ -77,14 +91,28 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
         Some((i, error)) => {
             let n = &networks[i];
             let kind = if n.image_mse.is_some() { "image MSE" } else { "T-MSE" };
-            let found = format!("{} ({}, {} multiply-adds, {} moments) has an {kind} of {error:.3e}", n.model, n.network, n.multiply_adds, n.moments);
+            let found = format!(
+                "{} ({}, {} multiply-adds, {} moments) has an {kind} of {error:.3e}",
+                n.model, n.network, n.multiply_adds, n.moments
+            );
             words.push(match keeping {
-                Some(_) => format!("{found}: the smallest of {} that stays within {target:.3e}.", judged.len()),
-                None => format!("{found}: the least of {}, and more than the {target:.3e} that was to be kept.", judged.len()),
+                Some(_) => format!(
+                    "{found}: the smallest of {} that stays within {target:.3e}.",
+                    judged.len()
+                ),
+                None => format!(
+                    "{found}: the least of {}, and more than the {target:.3e} that was to be kept.",
+                    judged.len()
+                ),
             });
             (bits, moments) = (n.bits_per_pixel, n.moments);
             let allowed = target.max(error);
-            if let Some(s) = n.stored.iter().filter(|s| s.error <= allowed).min_by(|a, b| a.error.total_cmp(&b.error)) {
+            if let Some(s) = n
+                .stored
+                .iter()
+                .filter(|s| s.error <= allowed)
+                .min_by(|a, b| a.error.total_cmp(&b.error))
+            {
                 (storage, bits) = (s.storage, s.bits_per_pixel);
                 words.push(format!(
                     "Moments may be stored in 16 bits ({}): the error becomes {:.3e}, and a pixel takes {} bits instead of {}.",
@@ -94,7 +122,11 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
                     n.bits_per_pixel
                 ));
             } else if let Some(s) = n.stored.iter().min_by(|a, b| a.error.total_cmp(&b.error)) {
-                words.push(format!("Keep moments in f32: in 16 bits the error would be {:.3e} at best ({}).", s.error, name_of(s.storage)));
+                words.push(format!(
+                    "Keep moments in f32: in 16 bits the error would be {:.3e} at best ({}).",
+                    s.error,
+                    name_of(s.storage)
+                ));
             }
             per_fragment = asked.map(|share| share * n.multiply_adds as f64);
             words.push(format!(
@@ -104,10 +136,15 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
             let dead: usize = n.layers.iter().map(|l| l.never.len()).sum();
             let constant: Vec<&str> = n.columns.iter().filter(|c| c.is_constant()).map(|c| c.name).collect();
             if dead > 0 {
-                words.push(format!("{dead} of its units never fire on this scene: nmt profile --simplify takes them out."));
+                words.push(format!(
+                    "{dead} of its units never fire on this scene: nmt profile --simplify takes them out."
+                ));
             }
             if !constant.is_empty() {
-                words.push(format!("Its features {} are constant on this scene.", constant.join(", ")));
+                words.push(format!(
+                    "Its features {} are constant on this scene.",
+                    constant.join(", ")
+                ));
             }
         }
     }
@@ -120,8 +157,18 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
             percent(tiles.known as f64 / tiles.tiles.max(1) as f64)
         ));
     }
-    let hidden_sizes = chosen.map_or(vec![16, 8], |(i, _)| networks[i].network.split('-').filter_map(|s| s.parse().ok()).collect::<Vec<usize>>());
-    let hidden_sizes = if hidden_sizes.len() > 2 { hidden_sizes[1..hidden_sizes.len() - 1].to_vec() } else { vec![16, 8] };
+    let hidden_sizes = chosen.map_or(vec![16, 8], |(i, _)| {
+        networks[i]
+            .network
+            .split('-')
+            .filter_map(|s| s.parse().ok())
+            .collect::<Vec<usize>>()
+    });
+    let hidden_sizes = if hidden_sizes.len() > 2 {
+        hidden_sizes[1..hidden_sizes.len() - 1].to_vec()
+    } else {
+        vec![16, 8]
+    };
     let features = chosen.map_or("recentred", |(i, _)| networks[i].features);
     Recommendation {
         model: chosen.map(|(i, _)| networks[i].model.clone()),
@@ -150,11 +197,19 @@ fn config(facts: &Facts, features: &str, hidden: &[usize], storage: Storage) -> 
     let quantiles = |i: usize| facts.histograms[i].quantiles;
     let fragments = quantiles(0).map_or((3, 32), |q| ((q.min as u32).max(3), (q.max as u32).max(4)));
     let alpha = quantiles(1).map_or((0.05, 0.95), |q| (q.min.max(1e-3), q.max.min(1.0)));
-    let alpha = if alpha.1 > alpha.0 { alpha } else { (0.9 * alpha.1, alpha.1) };
+    let alpha = if alpha.1 > alpha.0 {
+        alpha
+    } else {
+        (0.9 * alpha.1, alpha.1)
+    };
     let half = quantiles(3).map_or((0.02, 1.0), |q| (q.p5.clamp(1e-4, 0.9), q.max.clamp(1e-3, 1.0)));
     let half = if half.1 > half.0 { half } else { (0.5 * half.1, half.1) };
     let (near, far) = facts.depth_range.filter(|r| r.0 < r.1).unwrap_or((0.1, 100.0));
-    let features = if features.starts_with("recentred") { features } else { "recentred" };
+    let features = if features.starts_with("recentred") {
+        features
+    } else {
+        "recentred"
+    };
     let law = |depth: &str, alpha_law: &str| {
         format!(
             "[[synth.pixels]]\nweight = 1\nfragments = {{ min = {}, max = {}, law = \"log-uniform\" }}\ndepth = {depth}\nalpha = {{ law = \"{alpha_law}\", min = {:e}, max = {:e} }}\nrange = {{ half = {{ min = {:e}, max = {:e} }} }}\n\n",
@@ -172,6 +227,10 @@ fn config(facts: &Facts, features: &str, hidden: &[usize], storage: Storage) -> 
         law("{ law = \"paired\", gap = { min = 1e-3, max = 1.0 } }", "uniform"),
         law("{ law = \"uniform\" }", "subrange"),
         law("{ law = \"uniform\" }", "log-uniform"),
-        if storage == Storage::F32 { String::new() } else { format!("storage = \"{}\"\n", name_of(storage)) },
+        if storage == Storage::F32 {
+            String::new()
+        } else {
+            format!("storage = \"{}\"\n", name_of(storage))
+        },
     )
 }

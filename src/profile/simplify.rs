@@ -15,7 +15,7 @@ use serde::Serialize;
 use serde_json::json;
 
 /// Most that merging and folding may multiply the f32 error by.
-pub const MOST_ERROR: f64 = 1.5;
+pub const MAX_ERROR: f64 = 1.5;
 
 /// A unit that was taken out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -111,7 +111,12 @@ struct Wide {
 impl Wide {
     fn of(dense: &Dense) -> Self {
         let wide = |v: &[f32]| v.iter().map(|&x| x.into()).collect();
-        Self { inputs: dense.inputs(), outputs: dense.outputs(), weights: wide(&dense.weights), biases: wide(&dense.biases) }
+        Self {
+            inputs: dense.inputs(),
+            outputs: dense.outputs(),
+            weights: wide(&dense.weights),
+            biases: wide(&dense.biases),
+        }
     }
 
     fn weight(&self, i: usize, o: usize) -> f64 {
@@ -123,14 +128,22 @@ impl Wide {
         Self {
             inputs: inputs.len(),
             outputs: outputs.len(),
-            weights: inputs.iter().flat_map(|&i| outputs.iter().map(move |&o| self.weight(i, o))).collect(),
+            weights: inputs
+                .iter()
+                .flat_map(|&i| outputs.iter().map(move |&o| self.weight(i, o)))
+                .collect(),
             biases: outputs.iter().map(|&o| self.biases[o]).collect(),
         }
     }
 
     fn dense(&self) -> Result<Dense, ProfileError> {
         let narrow = |v: &[f64]| v.iter().map(|&x| x as f32).collect();
-        Ok(Dense::new(self.inputs, self.outputs, narrow(&self.weights), narrow(&self.biases))?)
+        Ok(Dense::new(
+            self.inputs,
+            self.outputs,
+            narrow(&self.weights),
+            narrow(&self.biases),
+        )?)
     }
 }
 
@@ -146,7 +159,10 @@ fn rounding(mlp: &Mlp, exact: &[f64], rows: &[f32]) -> Rounding {
         sum += off * off;
         worst = if off.is_nan() { f64::NAN } else { worst.max(off) };
     }
-    Rounding { rms: (sum / exact.len().max(1) as f64).sqrt(), worst }
+    Rounding {
+        rms: (sum / exact.len().max(1) as f64).sqrt(),
+        worst,
+    }
 }
 
 /// Least and greatest value before ReLU of every hidden unit over a box of features.
@@ -179,28 +195,57 @@ fn merge(layers: &mut [Wide], l: usize, units: &[usize], rows_before: &[Vec<f64>
     }
     let rest: Vec<usize> = (0..layer.outputs).filter(|u| !units.contains(u)).collect();
     // The linear part from x to the next layer: M and what it adds to the biases.
-    let matrix: Vec<Vec<f64>> =
-        (0..inputs).map(|i| (0..outputs).map(|o| units.iter().map(|&u| layer.weight(i, u) * next.weight(u, o)).sum()).collect()).collect();
-    let constant: Vec<f64> = (0..outputs).map(|o| units.iter().map(|&u| layer.biases[u] * next.weight(u, o)).sum()).collect();
+    let matrix: Vec<Vec<f64>> = (0..inputs)
+        .map(|i| {
+            (0..outputs)
+                .map(|o| units.iter().map(|&u| layer.weight(i, u) * next.weight(u, o)).sum())
+                .collect()
+        })
+        .collect();
+    let constant: Vec<f64> = (0..outputs)
+        .map(|o| units.iter().map(|&u| layer.biases[u] * next.weight(u, o)).sum())
+        .collect();
     // New units: value = direction · x, before their shifts; and what they weigh in the next layer.
     let by_output = outputs <= inputs;
-    let direction = |r: usize, i: usize| if by_output { matrix[i][r] } else { f64::from(u8::from(i == r)) };
-    let onward = |r: usize, o: usize| if by_output { f64::from(u8::from(o == r)) } else { matrix[r][o] };
+    let direction = |r: usize, i: usize| {
+        if by_output {
+            matrix[i][r]
+        } else {
+            f64::from(u8::from(i == r))
+        }
+    };
+    let onward = |r: usize, o: usize| {
+        if by_output {
+            f64::from(u8::from(o == r))
+        } else {
+            matrix[r][o]
+        }
+    };
     let shifts: Vec<f64> = (0..into)
         .map(|r| {
-            let values = rows_before.iter().map(|x| (0..inputs).map(|i| direction(r, i) * x[i]).sum::<f64>());
+            let values = rows_before
+                .iter()
+                .map(|x| (0..inputs).map(|i| direction(r, i) * x[i]).sum::<f64>());
             let (lo, hi) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
             // A tenth of the range to spare.
             0.1 * (hi - lo) + 1e-3 - lo
         })
         .collect();
     let mut merged = layer.only(&(0..inputs).collect::<Vec<_>>(), &rest);
-    merged.weights =
-        (0..inputs).flat_map(|i| rest.iter().map(|&u| layer.weight(i, u)).chain((0..into).map(|r| direction(r, i))).collect::<Vec<_>>()).collect();
+    merged.weights = (0..inputs)
+        .flat_map(|i| {
+            rest.iter()
+                .map(|&u| layer.weight(i, u))
+                .chain((0..into).map(|r| direction(r, i)))
+                .collect::<Vec<_>>()
+        })
+        .collect();
     merged.biases.extend(&shifts);
     merged.outputs = rest.len() + into;
     let mut after = next.only(&rest, &(0..outputs).collect::<Vec<_>>());
-    after.weights.extend((0..into).flat_map(|r| (0..outputs).map(|o| onward(r, o)).collect::<Vec<_>>()));
+    after
+        .weights
+        .extend((0..into).flat_map(|r| (0..outputs).map(|o| onward(r, o)).collect::<Vec<_>>()));
     after.inputs = rest.len() + into;
     for (o, constant) in constant.into_iter().enumerate() {
         after.biases[o] += constant - (0..into).map(|r| shifts[r] * onward(r, o)).sum::<f64>();
@@ -221,10 +266,21 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
     let width = set.width();
     let count = rows.len() / width;
     if count == 0 {
-        return Err(ProfileError::TooFew { rows: 0, least: 1, what: "say what the network does not need" });
+        return Err(ProfileError::TooFew {
+            rows: 0,
+            least: 1,
+            what: "say what the network does not need",
+        });
     }
     let box_of_rows: Vec<[f32; 2]> = (0..width)
-        .map(|c| rows.iter().skip(c).step_by(width).fold([f32::INFINITY, f32::NEG_INFINITY], |[lo, hi], &x| [lo.min(x), hi.max(x)]))
+        .map(|c| {
+            rows.iter()
+                .skip(c)
+                .step_by(width)
+                .fold([f32::INFINITY, f32::NEG_INFINITY], |[lo, hi], &x| {
+                    [lo.min(x), hi.max(x)]
+                })
+        })
         .collect();
     let fired = activity(mlp, rows).fired;
     let bounds = intervals(mlp, &box_of_rows);
@@ -239,7 +295,12 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
         for unit in 0..mlp.layers()[l].outputs() {
             let unheard = (0..next.outputs()).all(|o| next.weight(unit, o) == 0.0);
             if fired[l][unit] == 0 || unheard {
-                removed.push(Removed { layer: l, unit, in_all_of_the_box: bounds[l][unit][1] <= 0.0, unheard });
+                removed.push(Removed {
+                    layer: l,
+                    unit,
+                    in_all_of_the_box: bounds[l][unit][1] <= 0.0,
+                    unheard,
+                });
             } else {
                 left.push(unit);
             }
@@ -252,19 +313,34 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
         kept.push(left);
     }
     kept.push(vec![0]);
-    let layers: Vec<Wide> = mlp.layers().iter().enumerate().map(|(l, dense)| Wide::of(dense).only(&kept[l], &kept[l + 1])).collect();
+    let layers: Vec<Wide> = mlp
+        .layers()
+        .iter()
+        .enumerate()
+        .map(|(l, dense)| Wide::of(dense).only(&kept[l], &kept[l + 1]))
+        .collect();
     let pruned = made(mlp, &layers)?;
-    let bits32 = |m: &Mlp| m.forward_batch::<f32>(rows).iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+    let bits32 = |m: &Mlp| {
+        m.forward_batch::<f32>(rows)
+            .iter()
+            .map(|t| t.to_bits())
+            .collect::<Vec<_>>()
+    };
     let exact = mlp.forward_batch::<f64>(rows);
     let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
     let identical_bits = bits32(mlp) == bits32(&pruned) && same(&exact, &pruned.forward_batch::<f64>(rows));
     let rounding_before = rounding(mlp, &exact, rows);
-    let allowed = |r: &Rounding| r.rms <= MOST_ERROR * rounding_before.rms && r.worst <= MOST_ERROR * rounding_before.worst;
+    let allowed =
+        |r: &Rounding| r.rms <= MAX_ERROR * rounding_before.rms && r.worst <= MAX_ERROR * rounding_before.worst;
 
     // Constant features, then units that always fire; each is kept if rounding allows.
     let constants: Vec<Constant> = (0..width)
         .filter(|&c| box_of_rows[c][0] == box_of_rows[c][1])
-        .map(|column| Constant { column, name: set.columns()[column], value: box_of_rows[column][0] })
+        .map(|column| Constant {
+            column,
+            name: set.columns()[column],
+            value: box_of_rows[column][0],
+        })
         .collect();
     let fold = |layers: &mut Vec<Wide>| {
         for c in &constants {
@@ -278,14 +354,20 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
     let merge_all = |layers: &mut Vec<Wide>| -> Vec<Merged> {
         let mut merged = Vec::new();
         for l in 0..hidden {
-            let always: Vec<usize> = (0..kept[l + 1].len()).filter(|&at| fired[l][kept[l + 1][at]] == count as u64).collect();
+            let always: Vec<usize> = (0..kept[l + 1].len())
+                .filter(|&at| fired[l][kept[l + 1][at]] == count as u64)
+                .collect();
             // A layer behind one that was merged reads something else.
             if layers[l].inputs != pruned.layers()[l].inputs() {
                 continue;
             }
             let read = inputs_of(&pruned, rows, l);
             if let Some(into) = merge(layers, l, &always, &read) {
-                merged.push(Merged { layer: l, units: always.iter().map(|&at| kept[l + 1][at]).collect(), into });
+                merged.push(Merged {
+                    layer: l,
+                    units: always.iter().map(|&at| kept[l + 1][at]).collect(),
+                    into,
+                });
             }
         }
         merged
@@ -301,7 +383,12 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
             let candidate = made(mlp, &tried)?;
             let off = rounding(&candidate, &exact, rows);
             if allowed(&off) {
-                best = (candidate, merged, if folding { constants.clone() } else { Vec::new() }, off);
+                best = (
+                    candidate,
+                    merged,
+                    if folding { constants.clone() } else { Vec::new() },
+                    off,
+                );
                 break;
             }
         }
@@ -311,11 +398,24 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
     let region = format!(
         "exact on the {count} rows of features that it was made for, and on every row on which none of the removed units fires{}{}; of these {} cannot in the whole box around the rows, {observed} were \
          silent on the rows alone",
-        if merged.is_empty() { String::new() } else { ", all of the merged ones do".to_owned() },
-        if constants.is_empty() { String::new() } else { ", and the constant features have their value".to_owned() },
+        if merged.is_empty() {
+            String::new()
+        } else {
+            ", all of the merged ones do".to_owned()
+        },
+        if constants.is_empty() {
+            String::new()
+        } else {
+            ", and the constant features have their value".to_owned()
+        },
         removed.len() - observed,
     );
-    let not_zero = left.layers().iter().flat_map(|l| &l.weights).filter(|w| **w != 0.0).count() as u64;
+    let not_zero = left
+        .layers()
+        .iter()
+        .flat_map(|l| &l.weights)
+        .filter(|w| **w != 0.0)
+        .count() as u64;
     let report = Report {
         rows: count as u64,
         multiply_adds_before: mlp.multiply_adds() as u64,
@@ -330,7 +430,8 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
         box_of_rows,
         region,
     };
-    left.provenance.derived = Some(json!({ "how": "simplified", "from": mlp.name(), "from_network": mlp.shape(), "report": report }));
+    left.provenance.derived =
+        Some(json!({ "how": "simplified", "from": mlp.name(), "from_network": mlp.shape(), "report": report }));
     Ok(Simplified { mlp: left, report })
 }
 
@@ -359,11 +460,22 @@ impl Report {
     pub fn holds(&self, first: &Mlp, row: &[f32]) -> bool {
         let mut holds = self.constants.iter().all(|c| row[c.column] == c.value);
         walk(first, row, |layer, values| {
-            holds &= self.removed.iter().all(|r| r.layer != layer || r.unheard || values[r.unit] <= 0.0);
-            holds &= self.merged.iter().all(|m| m.layer != layer || m.units.iter().all(|&u| values[u] > 0.0));
+            holds &= self
+                .removed
+                .iter()
+                .all(|r| r.layer != layer || r.unheard || values[r.unit] <= 0.0);
+            holds &= self
+                .merged
+                .iter()
+                .all(|m| m.layer != layer || m.units.iter().all(|&u| values[u] > 0.0));
         });
         // Merged units were shifted for the rows; in their box they fire.
-        holds && (self.merged.is_empty() || row.iter().zip(&self.box_of_rows).all(|(x, [lo, hi])| (lo..=hi).contains(&x)))
+        holds
+            && (self.merged.is_empty()
+                || row
+                    .iter()
+                    .zip(&self.box_of_rows)
+                    .all(|(x, [lo, hi])| (lo..=hi).contains(&x)))
     }
 }
 
@@ -408,17 +520,53 @@ mod tests {
         let Simplified { mlp: left, report } = simplify(&mlp, &rows).unwrap();
         assert!(report.identical_bits && report.rows == 5000);
         assert_eq!(report.removed.iter().filter(|r| r.layer == 0).count(), 9);
-        assert!(report.removed.iter().any(|r| (r.layer, r.unit, r.unheard) == (0, 4, true)));
-        assert!(report.removed.iter().filter(|r| r.layer == 0 && !r.unheard).all(|r| r.in_all_of_the_box));
-        assert_eq!(report.constants, [Constant { column: 3, name: "b1", value: 0.25 }]);
+        assert!(
+            report
+                .removed
+                .iter()
+                .any(|r| (r.layer, r.unit, r.unheard) == (0, 4, true))
+        );
+        assert!(
+            report
+                .removed
+                .iter()
+                .filter(|r| r.layer == 0 && !r.unheard)
+                .all(|r| r.in_all_of_the_box)
+        );
+        assert_eq!(
+            report.constants,
+            [Constant {
+                column: 3,
+                name: "b1",
+                value: 0.25
+            }]
+        );
         // Eight of the first layer always fire between seven inputs and what is left of the second layer.
         let left_of_second = 12 - report.removed.iter().filter(|r| r.layer == 1).count();
-        assert_eq!(report.merged.iter().map(|m| (m.layer, m.units.len(), m.into)).collect::<Vec<_>>(), [(0, 8, left_of_second.min(7))]);
-        assert!(report.multiply_adds < report.multiply_adds_before / 2 && report.multiply_adds_not_zero < report.multiply_adds);
-        assert!(report.rounding.rms <= MOST_ERROR * report.rounding_before.rms && report.rounding.worst <= MOST_ERROR * report.rounding_before.worst);
+        assert_eq!(
+            report
+                .merged
+                .iter()
+                .map(|m| (m.layer, m.units.len(), m.into))
+                .collect::<Vec<_>>(),
+            [(0, 8, left_of_second.min(7))]
+        );
+        assert!(
+            report.multiply_adds < report.multiply_adds_before / 2
+                && report.multiply_adds_not_zero < report.multiply_adds
+        );
+        assert!(
+            report.rounding.rms <= MAX_ERROR * report.rounding_before.rms
+                && report.rounding.worst <= MAX_ERROR * report.rounding_before.worst
+        );
         assert!(report.rounding.worst > 0.0);
         let exact = mlp.forward_batch::<f64>(&rows);
-        assert!(left.forward_batch::<f64>(&rows).iter().zip(&exact).all(|(a, b)| (a - b).abs() < 1e-4));
+        assert!(
+            left.forward_batch::<f64>(&rows)
+                .iter()
+                .zip(&exact)
+                .all(|(a, b)| (a - b).abs() < 1e-4)
+        );
         assert!(left.provenance.derived.is_some());
         assert!(rows.chunks_exact(7).take(200).all(|row| report.holds(&mlp, row)));
         let mut outside = rows[..7].to_vec();

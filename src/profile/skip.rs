@@ -59,8 +59,16 @@ pub fn ways() -> [(&'static str, Switches); 7] {
 ///
 /// # Errors
 /// [`ProfileError`] where the network cannot be applied to the list.
-pub fn measure(scene: &Scene<'_>, mlp: &Mlp, repeat: usize, progress: &dyn Fn(u64)) -> Result<Vec<Skipped>, ProfileError> {
-    let methods: Vec<Neural> = ways().iter().map(|(_, switches)| Neural::new(mlp.clone()).with_switches(*switches)).collect();
+pub fn measure(
+    scene: &Scene<'_>,
+    mlp: &Mlp,
+    repeat: usize,
+    progress: &dyn Fn(u64),
+) -> Result<Vec<Skipped>, ProfileError> {
+    let methods: Vec<Neural> = ways()
+        .iter()
+        .map(|(_, switches)| Neural::new(mlp.clone()).with_switches(*switches))
+        .collect();
     let mut answered = Vec::with_capacity(methods.len());
     for method in &methods {
         answered.push(method.answers(scene.list, scene.context, &|_| {})?);
@@ -75,12 +83,21 @@ pub fn measure(scene: &Scene<'_>, mlp: &Mlp, repeat: usize, progress: &dyn Fn(u6
     let reference = scene.image_of(&answered[1].transmittance).transpose()?;
     let mut results = Vec::with_capacity(methods.len());
     for (((skip, _), answered), own) in ways().into_iter().zip(&answered).zip(&seconds) {
-        let ratios: Vec<f64> = seconds[0].iter().zip(own).map(|(none, own)| none / own.max(1e-9)).collect();
+        let ratios: Vec<f64> = seconds[0]
+            .iter()
+            .zip(own)
+            .map(|(none, own)| none / own.max(1e-9))
+            .collect();
         let image = match (&reference, scene.truth.image()) {
             (Some(reference), Ok(truth)) => {
                 let image = scene.image_of(&answered.transmittance).expect("as the reference")?;
                 let (mut change, mut added) = (0.0f64, 0.0f64);
-                let channels = image.pixels().as_flattened().iter().zip(reference.pixels().as_flattened()).zip(truth.pixels().as_flattened());
+                let channels = image
+                    .pixels()
+                    .as_flattened()
+                    .iter()
+                    .zip(reference.pixels().as_flattened())
+                    .zip(truth.pixels().as_flattened());
                 for ((&c, &e), &t) in channels {
                     change = worse(change, (c - e).abs());
                     added = worse(added, (c - t).abs() - (e - t).abs());

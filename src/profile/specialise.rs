@@ -25,7 +25,7 @@ const PURPOSE: u64 = 0x1008;
 const TILE: usize = super::facts::TILE as usize;
 
 /// Fewest rows worth fitting to.
-pub const LEAST_ROWS: usize = 1000;
+pub const MIN_ROWS: usize = 1000;
 
 /// How a network is fitted to a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -46,7 +46,14 @@ pub struct Plan {
 
 impl Default for Plan {
     fn default() -> Self {
-        Self { target_error: None, held_out: 0.2, visits: 60_000_000, epochs: 400, attempts: 10, seed: 1 }
+        Self {
+            target_error: None,
+            held_out: 0.2,
+            visits: 60_000_000,
+            epochs: 400,
+            attempts: 10,
+            seed: 1,
+        }
     }
 }
 
@@ -112,20 +119,38 @@ impl<'a> Task<'a> {
         let asked = (0..list.len()).filter(|&i| look.known[i].is_nan()).collect();
         // Tiles of an image; of another list runs of as many pixels.
         let width = list.size().map_or(list.pixels(), |s| s.0 as usize).max(1);
-        let tile_of = |p: usize| if list.size().is_some() { (p / width / TILE, p % width / TILE) } else { (0, p / (TILE * TILE)) };
+        let tile_of = |p: usize| {
+            if list.size().is_some() {
+                (p / width / TILE, p % width / TILE)
+            } else {
+                (0, p / (TILE * TILE))
+            }
+        };
         let out = |p: usize| {
             let (y, x) = tile_of(p);
             stream(plan.seed, PURPOSE, ((y as u64) << 32) | x as u64).random_range(0.0..1.0) < plan.held_out
         };
         let held_out = (0..list.pixels()).into_par_iter().map(out).collect();
-        Ok(Self { scene, base: look.known, asked, features: look.features, held_out })
+        Ok(Self {
+            scene,
+            base: look.known,
+            asked,
+            features: look.features,
+            held_out,
+        })
     }
 
     /// Rows to train on, weighted by what an error of each does to the image.
     fn rows(&self, mlp: &Mlp) -> (Rows, usize) {
         let list = self.scene.list;
         let width = mlp.feature_set().width();
-        let mut rows = Rows { feature_set: mlp.feature_set(), features: Vec::new(), targets: Vec::new(), weights: Vec::new(), pixels: Vec::new() };
+        let mut rows = Rows {
+            feature_set: mlp.feature_set(),
+            features: Vec::new(),
+            targets: Vec::new(),
+            weights: Vec::new(),
+            pixels: Vec::new(),
+        };
         let mut p = 0;
         for (row, &i) in self.features.chunks_exact(width).zip(&self.asked) {
             while list.offsets()[p + 1] <= i as u64 {
@@ -150,14 +175,18 @@ impl<'a> Task<'a> {
     fn weight(&self, p: usize, i: usize) -> f32 {
         let list = self.scene.list;
         let a = f64::from(list.alpha()[i]);
-        let Some(color) = list.color() else { return (a * a) as f32 };
+        let Some(color) = list.color() else {
+            return (a * a) as f32;
+        };
         let (mut sum, mut total) = ([0.0; 3], 0.0);
         for j in list.range(p) {
             let w = f64::from(list.alpha()[j]) * self.scene.transmittance[j];
             total += w;
             sum.iter_mut().zip(color[j]).for_each(|(s, c)| *s += w * f64::from(c));
         }
-        let distance: f64 = (0..3).map(|c| (f64::from(color[i][c]) - sum[c] / total.max(1e-9)).powi(2)).sum();
+        let distance: f64 = (0..3)
+            .map(|c| (f64::from(color[i][c]) - sum[c] / total.max(1e-9)).powi(2))
+            .sum();
         // Errors of a pixel's fragments go together, so that likeness of colour does not take all weight away.
         (a * a * (distance + 0.02)) as f32
     }
@@ -185,13 +214,30 @@ impl<'a> Task<'a> {
             }
         };
         if let Ok(truth) = scene.truth.image() {
-            let squares = |p: usize| -> f64 { scene.color_of(p, &answers).iter().zip(truth.pixels()[p]).map(|(a, b)| (a - b).powi(2)).sum() };
-            let squares: Vec<f64> = (0..list.pixels()).into_par_iter().with_min_len(256).map(squares).collect();
+            let squares = |p: usize| -> f64 {
+                scene
+                    .color_of(p, &answers)
+                    .iter()
+                    .zip(truth.pixels()[p])
+                    .map(|(a, b)| (a - b).powi(2))
+                    .sum()
+            };
+            let squares: Vec<f64> = (0..list.pixels())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(squares)
+                .collect();
             squares.into_iter().enumerate().for_each(|(p, s)| add(p, s, 3.0));
         } else {
             for p in 0..list.pixels() {
                 let of = list.range(p);
-                add(p, of.clone().map(|i| (f64::from(answers[i]) - scene.transmittance[i]).powi(2)).sum(), of.len() as f64);
+                add(
+                    p,
+                    of.clone()
+                        .map(|i| (f64::from(answers[i]) - scene.transmittance[i]).powi(2))
+                        .sum(),
+                    of.len() as f64,
+                );
             }
         }
         Ok([0, 1].map(|k| sums[k] / f64::max(counts[k], 1.0)))
@@ -199,7 +245,11 @@ impl<'a> Task<'a> {
 }
 
 fn flat(mlp: &Mlp) -> Vec<f32> {
-    mlp.layers().iter().flat_map(|l| l.weights.iter().chain(&l.biases)).copied().collect()
+    mlp.layers()
+        .iter()
+        .flat_map(|l| l.weights.iter().chain(&l.biases))
+        .copied()
+        .collect()
 }
 
 fn shapes(mlp: &Mlp) -> Vec<(usize, usize)> {
@@ -236,7 +286,9 @@ fn fit(mlp: &Mlp, rows: &Rows, plan: &Plan, round: u64, stop: &dyn Fn() -> bool)
         epsilon: 1e-7,
         checkpoint_every: 1,
     };
-    let mut fitted = Backend::Fused.optimiser(mlp.feature_set(), &shapes(mlp), &flat(mlp), &config).expect("our own backend is always there");
+    let mut fitted = Backend::Fused
+        .optimiser(mlp.feature_set(), &shapes(mlp), &flat(mlp), &config)
+        .expect("our own backend is always there");
     let mut order: Vec<u32> = (0..rows.len() as u32).collect();
     order.shuffle(&mut stream(plan.seed, PURPOSE, 1 << 60));
     let blocks = Blocks::of(rows, &order);
@@ -253,7 +305,13 @@ fn fit(mlp: &Mlp, rows: &Rows, plan: &Plan, round: u64, stop: &dyn Fn() -> bool)
             let along = step as f64 / steps as f64;
             let rate = RATE * (step as f64 / WARM_UP).min(1.0) * 0.5 * (1.0 + libm::cos(std::f64::consts::PI * along));
             step += 1;
-            fitted.step(Batch { blocks: &blocks, order: batch }, rate);
+            fitted.step(
+                Batch {
+                    blocks: &blocks,
+                    order: batch,
+                },
+                rate,
+            );
         }
     }
     let parameters = fitted.parameters();
@@ -286,7 +344,11 @@ fn shrink(mlp: &Mlp, rows: &[f32], hidden: &[usize]) -> Result<Mlp, ProfileError
     let mut means = Vec::new();
     for (l, sums) in sums.iter().enumerate() {
         let mean: Vec<f64> = sums.iter().map(|s| s[0] / count).collect();
-        let out = |u: usize| (0..layers[l + 1].outputs()).map(|o| f64::from(layers[l + 1].weight(u, o)).powi(2)).sum::<f64>();
+        let out = |u: usize| {
+            (0..layers[l + 1].outputs())
+                .map(|o| f64::from(layers[l + 1].weight(u, o)).powi(2))
+                .sum::<f64>()
+        };
         let use_of = |u: usize| (sums[u][1] / count - mean[u] * mean[u]).max(0.0) * out(u);
         let mut units: Vec<usize> = (0..sums.len()).collect();
         units.sort_by(|&a, &b| use_of(b).total_cmp(&use_of(a)).then(a.cmp(&b)));
@@ -298,25 +360,40 @@ fn shrink(mlp: &Mlp, rows: &[f32], hidden: &[usize]) -> Result<Mlp, ProfileError
     kept.push(vec![0]);
     let mut made = Vec::new();
     for (l, dense) in layers.iter().enumerate() {
-        let weights = kept[l].iter().flat_map(|&i| kept[l + 1].iter().map(move |&o| dense.weight(i, o))).collect();
+        let weights = kept[l]
+            .iter()
+            .flat_map(|&i| kept[l + 1].iter().map(move |&o| dense.weight(i, o)))
+            .collect();
         let lost = |o: usize| match l {
             0 => 0.0,
-            _ => (0..dense.inputs()).filter(|i| !kept[l].contains(i)).map(|i| means[l - 1][i] * f64::from(dense.weight(i, o))).sum(),
+            _ => (0..dense.inputs())
+                .filter(|i| !kept[l].contains(i))
+                .map(|i| means[l - 1][i] * f64::from(dense.weight(i, o)))
+                .sum(),
         };
-        let biases = kept[l + 1].iter().map(|&o| (f64::from(dense.biases[o]) + lost(o)) as f32).collect();
+        let biases = kept[l + 1]
+            .iter()
+            .map(|&o| (f64::from(dense.biases[o]) + lost(o)) as f32)
+            .collect();
         made.push(Dense::new(kept[l].len(), kept[l + 1].len(), weights, biases)?);
     }
     Ok(Mlp::new(mlp.name(), mlp.feature_set(), made, mlp.provenance.clone())?)
 }
 
 fn multiply_adds(width: usize, hidden: &[usize]) -> usize {
-    let sizes: Vec<usize> = std::iter::once(width).chain(hidden.iter().copied()).chain([1]).collect();
+    let sizes: Vec<usize> = std::iter::once(width)
+        .chain(hidden.iter().copied())
+        .chain([1])
+        .collect();
     sizes.windows(2).map(|s| s[0] * s[1]).sum()
 }
 
 /// Hidden sizes in the proportions of `hidden` with at most so many multiply-adds; none where no unit can go.
 fn smaller(width: usize, hidden: &[usize], most: usize) -> Option<Vec<usize>> {
-    (1..=400).rev().map(|s| hidden.iter().map(|&h| (h * s / 400).max(1)).collect::<Vec<_>>()).find(|h| multiply_adds(width, h) <= most)
+    (1..=400)
+        .rev()
+        .map(|s| hidden.iter().map(|&h| (h * s / 400).max(1)).collect::<Vec<_>>())
+        .find(|h| multiply_adds(width, h) <= most)
 }
 
 /// Fits a network to a scene and makes it as small as the error allows; `progress` is told what is tried.
@@ -332,7 +409,9 @@ pub fn specialise(
 ) -> Result<Specialised, ProfileError> {
     let start = std::time::Instant::now();
     if mlp.feature_set().target() != Target::Transmittance {
-        return Err(ProfileError::NoTransmittance { model: mlp.name().to_owned() });
+        return Err(ProfileError::NoTransmittance {
+            model: mlp.name().to_owned(),
+        });
     }
     if let Some(target) = plan.target_error
         && !(target > 0.0 && target.is_finite())
@@ -341,8 +420,12 @@ pub fn specialise(
     }
     let task = Task::new(scene, mlp, plan)?;
     let (rows, held_out) = task.rows(mlp);
-    if rows.len() < LEAST_ROWS {
-        return Err(ProfileError::TooFew { rows: task.asked.len(), least: LEAST_ROWS, what: "fit a network to them" });
+    if rows.len() < MIN_ROWS {
+        return Err(ProfileError::TooFew {
+            rows: task.asked.len(),
+            least: MIN_ROWS,
+            what: "fit a network to them",
+        });
     }
     let attempt = |mlp: &Mlp, [error, error_held_out]: [f64; 2], kept, seconds| Attempt {
         network: mlp.shape(),
@@ -367,7 +450,11 @@ pub fn specialise(
     let mut next = mlp.sizes()[1..mlp.sizes().len() - 1].to_vec();
     while attempts.len() < plan.attempts {
         let begun = std::time::Instant::now();
-        let start_from = if attempts.is_empty() { from.clone() } else { shrink(&from, &rows.features, &next)? };
+        let start_from = if attempts.is_empty() {
+            from.clone()
+        } else {
+            shrink(&from, &rows.features, &next)?
+        };
         progress(attempts.len(), &start_from.shape());
         let fitted = fit(&start_from, &rows, plan, attempts.len() as u64, stop)?;
         let errors = task.errors(&fitted)?;
@@ -387,10 +474,20 @@ pub fn specialise(
         }
         // Three quarters for as long as the error is kept, then the middle of what is too few and what is enough.
         let enough = from.multiply_adds();
-        let most = if too_few == 0 { enough * 3 / 4 } else { (enough + too_few) / 2 };
+        let most = if too_few == 0 {
+            enough * 3 / 4
+        } else {
+            (enough + too_few) / 2
+        };
         let sizes = from.sizes();
         match smaller(width, &sizes[1..sizes.len() - 1], most) {
-            Some(hidden) if !hidden.is_empty() && multiply_adds(width, &hidden) > too_few && multiply_adds(width, &hidden) < enough => next = hidden,
+            Some(hidden)
+                if !hidden.is_empty()
+                    && multiply_adds(width, &hidden) > too_few
+                    && multiply_adds(width, &hidden) < enough =>
+            {
+                next = hidden
+            }
             _ => break,
         }
         if too_few > 0 && (enough - too_few) * 12 < enough {
@@ -399,7 +496,8 @@ pub fn specialise(
     }
     let (chosen, mut mlp_after) = best.unwrap_or((0, from));
     let errors_before = scene.errors(&Neural::new(mlp.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
-    let errors_after = scene.errors(&Neural::new(mlp_after.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
+    let errors_after =
+        scene.errors(&Neural::new(mlp_after.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
     let chosen_attempt = &attempts[chosen];
     mlp_after.provenance.derived = Some(json!({
         "how": "specialised: retrained on the fragments of one scene and made smaller while an error was kept; for that scene and those like it",
@@ -442,14 +540,28 @@ mod tests {
 
     fn scene(name: &str, size: u32) -> FragmentList {
         assert!(BUILT_IN.contains(&name));
-        build(&open(name).unwrap(), &Options { size: Some((size, size)), seed: None }).unwrap()
+        build(
+            &open(name).unwrap(),
+            &Options {
+                size: Some((size, size)),
+                seed: None,
+            },
+        )
+        .unwrap()
     }
 
     fn small() -> Mlp {
         super::super::shipped().unwrap().swap_remove(1)
     }
 
-    const QUICK: Plan = Plan { target_error: None, held_out: 0.25, visits: 2_000_000, epochs: 400, attempts: 3, seed: 1 };
+    const QUICK: Plan = Plan {
+        target_error: None,
+        held_out: 0.25,
+        visits: 2_000_000,
+        epochs: 400,
+        attempts: 3,
+        seed: 1,
+    };
 
     /// Retrained on the scene the network errs less there, on what was held out too, and a smaller one errs no more than the first did; the same bytes on one thread. Control: an
     /// error that nothing can keep is not kept.
@@ -459,9 +571,15 @@ mod tests {
         let scene = Scene::new(&list, Context::default(), [1.0; 3]);
         let made = specialise(&scene, &small(), &QUICK, &|| false, &|_, _| {}).unwrap();
         let first = &made.attempts[0];
-        assert!(first.kept && first.error < 0.95 * made.before.error && first.error_held_out < made.before.error_held_out, "{made:?}");
+        assert!(
+            first.kept && first.error < 0.95 * made.before.error && first.error_held_out < made.before.error_held_out,
+            "{made:?}"
+        );
         let chosen = &made.attempts[made.chosen];
-        assert!(chosen.kept && chosen.multiply_adds < made.before.multiply_adds, "{made:?}");
+        assert!(
+            chosen.kept && chosen.multiply_adds < made.before.multiply_adds,
+            "{made:?}"
+        );
         assert!(chosen.error <= made.target_error && chosen.error_held_out <= made.target_held_out);
         assert_eq!(made.mlp.multiply_adds() as u64, chosen.multiply_adds);
         // The errors that were decided by are those of the method, to the rounding of features made otherwise.
@@ -473,7 +591,12 @@ mod tests {
         let again = one.install(|| specialise(&scene, &small(), &QUICK, &|| false, &|_, _| {}).unwrap());
         assert_eq!(again.mlp.layers(), made.mlp.layers());
 
-        let never = Plan { target_error: Some(1e-12), attempts: 2, visits: 100_000, ..QUICK };
+        let never = Plan {
+            target_error: Some(1e-12),
+            attempts: 2,
+            visits: 100_000,
+            ..QUICK
+        };
         let made = specialise(&scene, &small(), &never, &|| false, &|_, _| {}).unwrap();
         assert!(!made.attempts[made.chosen].kept && made.mlp.sizes() == small().sizes());
     }
@@ -482,28 +605,64 @@ mod tests {
     fn what_cannot_be_fitted_is_said() {
         let list = scene("teapots", 48);
         let of = Scene::new(&list, Context::default(), [1.0; 3]);
-        let error = |plan: &Plan| specialise(&of, &small(), plan, &|| false, &|_, _| {}).unwrap_err().to_string();
+        let error = |plan: &Plan| {
+            specialise(&of, &small(), plan, &|| false, &|_, _| {})
+                .unwrap_err()
+                .to_string()
+        };
         assert!(error(&QUICK).contains("at least 1000"));
-        assert!(error(&Plan { target_error: Some(f64::NAN), ..QUICK }).contains("--target-error NaN"));
+        assert!(
+            error(&Plan {
+                target_error: Some(f64::NAN),
+                ..QUICK
+            })
+            .contains("--target-error NaN")
+        );
         let list = scene("hair", 48);
         let of = Scene::new(&list, Context::default(), [1.0; 3]);
-        assert!(matches!(specialise(&of, &small(), &QUICK, &|| true, &|_, _| {}), Err(ProfileError::Interrupted)));
+        assert!(matches!(
+            specialise(&of, &small(), &QUICK, &|| true, &|_, _| {}),
+            Err(ProfileError::Interrupted)
+        ));
     }
 
     /// A list without colours is judged by transmittance; runs of pixels are held out.
     #[test]
     fn a_list_without_an_image_will_do() {
         let full = scene("smoke", 40);
-        let bare = FragmentList::new(full.offsets().to_vec(), full.view_z().to_vec(), full.alpha().to_vec(), None).unwrap();
+        let bare = FragmentList::new(
+            full.offsets().to_vec(),
+            full.view_z().to_vec(),
+            full.alpha().to_vec(),
+            None,
+        )
+        .unwrap();
         let of = Scene::new(&bare, Context::default(), [1.0; 3]);
-        let made = specialise(&of, &small(), &Plan { attempts: 1, visits: 500_000, ..QUICK }, &|| false, &|_, _| {}).unwrap();
-        assert!(made.errors_after.image_mse.is_none() && made.errors_after.transmittance_mse < made.errors_before.transmittance_mse);
+        let made = specialise(
+            &of,
+            &small(),
+            &Plan {
+                attempts: 1,
+                visits: 500_000,
+                ..QUICK
+            },
+            &|| false,
+            &|_, _| {},
+        )
+        .unwrap();
+        assert!(
+            made.errors_after.image_mse.is_none()
+                && made.errors_after.transmittance_mse < made.errors_before.transmittance_mse
+        );
     }
 
     #[test]
     fn sizes_keep_their_proportions() {
         assert_eq!(smaller(7, &[32, 16], 752 * 3 / 4), Some(vec![27, 13]));
-        assert_eq!((smaller(7, &[2, 1], 16), smaller(7, &[1, 1], 8)), (Some(vec![1, 1]), None));
+        assert_eq!(
+            (smaller(7, &[2, 1], 16), smaller(7, &[1, 1], 8)),
+            (Some(vec![1, 1]), None)
+        );
         assert_eq!(multiply_adds(7, &[32, 16]), 752);
     }
 
@@ -521,8 +680,13 @@ mod tests {
         let rows: Vec<f32> = (0..7 * 4000).map(|_| rng.random_range(-1.0f32..1.0)).collect();
         let less = shrink(&mlp, &rows, &[14, 8]).unwrap();
         assert_eq!(less.shape(), "7-14-8-1");
-        let worst =
-            |a: &Mlp| a.forward_batch::<f64>(&rows).iter().zip(mlp.forward_batch::<f64>(&rows)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let worst = |a: &Mlp| {
+            a.forward_batch::<f64>(&rows)
+                .iter()
+                .zip(mlp.forward_batch::<f64>(&rows))
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max)
+        };
         assert!(worst(&less) < 1e-5, "{}", worst(&less));
         assert!(worst(&shrink(&mlp, &rows, &[8, 8]).unwrap()) > 1e-3);
     }

@@ -10,33 +10,67 @@ pub fn tables(scenes: &[Scene]) -> String {
     for (i, scene) in scenes.iter().enumerate() {
         let mut size = String::new();
         if let (Some(fragments), Some(most)) = (scene.fragments, scene.depth_complexity) {
-            size = format!(": {} fragments, at most {} in a pixel", thousands(fragments as i64), thousands(most as i64));
+            size = format!(
+                ": {} fragments, at most {} in a pixel",
+                thousands(fragments as i64),
+                thousands(most as i64)
+            );
         }
-        let head =
-            ["method", "image MSE ×1e-4", "PSNR dB", "FLIP", "T-MSE", "worst error of T", "not finite", "bits/pixel", "pass 1 ms", "pass 2 ms"];
+        let head = [
+            "method",
+            "image MSE ×1e-4",
+            "PSNR dB",
+            "FLIP",
+            "T-MSE",
+            "worst error of T",
+            "not finite",
+            "bits/pixel",
+            "pass 1 ms",
+            "pass 2 ms",
+        ];
         let mut table = Table::new(&format!("{}{size}; sorted by image MSE", scene.label), &head);
         for m in &scene.methods {
             let name = Cell::text(&m.name);
             let ms = |s: Option<f64>| Cell::shown(s, |s| number(1e3 * s));
             table.row(vec![
                 if m.is_network() { name.classed("network") } else { name },
-                Cell::shown(m.image_mse, |e| if e.is_nan() || e == 0.0 { number(e) } else { fixed(1e4 * e) }),
+                Cell::shown(m.image_mse, |e| {
+                    if e.is_nan() || e == 0.0 {
+                        number(e)
+                    } else {
+                        fixed(1e4 * e)
+                    }
+                }),
                 Cell::shown(m.psnr, |x| if x.is_finite() { format!("{x:.1}") } else { number(x) }),
                 Cell::shown(m.flip, |x| if x.is_nan() { number(x) } else { format!("{x:.4}") }),
                 Cell::number(m.t_mse),
                 Cell::number(m.t_worst),
                 Cell::number(Some(m.nonfinite)).classed(if m.nonfinite > 0.0 { "bad" } else { "" }),
                 // Methods that keep every fragment say so with the greatest number there is.
-                Cell::shown(m.bits, |b| if b >= f64::from(u32::MAX) { "unbounded".to_owned() } else { number(b) }),
+                Cell::shown(m.bits, |b| {
+                    if b >= f64::from(u32::MAX) {
+                        "unbounded".to_owned()
+                    } else {
+                        number(b)
+                    }
+                }),
                 ms(m.seconds[0]),
                 ms(m.seconds[1]),
             ]);
         }
         let mut html = if table.is_empty() { String::new() } else { table.html() };
         for (name, why) in &scene.refused {
-            html += &format!("<p class=\"note\">{} was not applied: {}</p>\n", escape(name), escape(why));
+            html += &format!(
+                "<p class=\"note\">{} was not applied: {}</p>\n",
+                escape(name),
+                escape(why)
+            );
         }
-        out += &if i == 0 { html } else { details(&format!("{}{size}", scene.label), &html) };
+        out += &if i == 0 {
+            html
+        } else {
+            details(&format!("{}{size}", scene.label), &html)
+        };
     }
     out + "<p class=\"note\">Image MSE is the mean over all pixels and channels, unclamped, against the exact image; T-MSE is over all fragments. \
         Times are of one run of the reference implementation in f64 (networks in f32); they compare no renderers.</p>\n"
@@ -53,8 +87,21 @@ fn fixed(x: f64) -> String {
 
 /// Charts of errors by fragments in a pixel and by alpha; none where no file has the numbers.
 pub fn curves(scenes: &[Scene]) -> Option<String> {
-    let scenes: Vec<&Scene> = scenes.iter().filter(|s| s.methods.iter().any(|m| !m.by_count.is_empty() || !m.by_alpha.is_empty())).collect();
-    let all: Vec<Scene> = scenes.iter().map(|s| Scene { methods: s.methods.clone(), ..Scene::default() }).collect();
+    let scenes: Vec<&Scene> = scenes
+        .iter()
+        .filter(|s| {
+            s.methods
+                .iter()
+                .any(|m| !m.by_count.is_empty() || !m.by_alpha.is_empty())
+        })
+        .collect();
+    let all: Vec<Scene> = scenes
+        .iter()
+        .map(|s| Scene {
+            methods: s.methods.clone(),
+            ..Scene::default()
+        })
+        .collect();
     let names = chosen(&all, COLORS);
     if scenes.is_empty() {
         return None;
@@ -63,9 +110,27 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
     for (i, scene) in scenes.iter().enumerate() {
         let mut html = String::new();
         let kinds: [(&str, &str, Pick, Value, Text); 3] = [
-            ("T-MSE", "fragments in the pixel", |m| &m.by_count, |b| b.t_mse, count_text),
-            ("image MSE", "fragments in the pixel", |m| &m.by_count, |b| b.image_mse, count_text),
-            ("T-MSE", "alpha of the fragment", |m| &m.by_alpha, |b| b.t_mse, alpha_text),
+            (
+                "T-MSE",
+                "fragments in the pixel",
+                |m| &m.by_count,
+                |b| b.t_mse,
+                count_text,
+            ),
+            (
+                "image MSE",
+                "fragments in the pixel",
+                |m| &m.by_count,
+                |b| b.image_mse,
+                count_text,
+            ),
+            (
+                "T-MSE",
+                "alpha of the fragment",
+                |m| &m.by_alpha,
+                |b| b.t_mse,
+                alpha_text,
+            ),
         ];
         let mut tables = String::new();
         html += "<div class=\"plots\">";
@@ -78,34 +143,67 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
             let labels: Vec<String> = bins.iter().map(|&ends| text(ends)).collect();
             let mut series = Vec::new();
             for (color, name) in names.iter().enumerate() {
-                let Some(method) = scene.methods.iter().find(|m| m.name == *name) else { continue };
+                let Some(method) = scene.methods.iter().find(|m| m.name == *name) else {
+                    continue;
+                };
                 let points: Vec<Point> = bins
                     .iter()
                     .enumerate()
                     .filter_map(|(x, ends)| {
                         let bin = pick(method).iter().find(|b| same(b.ends, *ends))?;
                         let y = value(bin)?;
-                        let count = bin.fragments.map_or(String::new(), |n| format!(", {} fragments", thousands(n as i64)));
-                        Some(Point { x: x as f64, y, spread: None, title: format!("{name}, {}: {error} {}{count}", labels[x], number(y)) })
+                        let count = bin
+                            .fragments
+                            .map_or(String::new(), |n| format!(", {} fragments", thousands(n as i64)));
+                        Some(Point {
+                            x: x as f64,
+                            y,
+                            spread: None,
+                            title: format!("{name}, {}: {error} {}{count}", labels[x], number(y)),
+                        })
                     })
                     .collect();
                 if points.iter().any(|p| p.y.is_finite()) {
-                    series.push(Series { name: name.clone(), points, mark: Mark::LineAndPoints, color });
+                    series.push(Series {
+                        name: name.clone(),
+                        points,
+                        mark: Mark::LineAndPoints,
+                        color,
+                    });
                 }
             }
             let chart = Chart {
-                summary: format!("{caption}; {} methods. The numbers stand in the table below.", series.len()),
-                x: Axis { label: along.to_owned(), scale: Scale::Names(labels.clone()) },
-                y: Axis { label: error.to_owned(), scale: Scale::Log { decades: 7 } },
+                summary: format!(
+                    "{caption}; {} methods. The numbers stand in the table below.",
+                    series.len()
+                ),
+                x: Axis {
+                    label: along.to_owned(),
+                    scale: Scale::Names(labels.clone()),
+                },
+                y: Axis {
+                    label: error.to_owned(),
+                    scale: Scale::Log { decades: 7 },
+                },
                 series,
             };
             html += &chart::figure(&chart, &caption).unwrap_or_default();
-            let head: Vec<&str> = std::iter::once("method").chain(labels.iter().map(String::as_str)).collect();
+            let head: Vec<&str> = std::iter::once("method")
+                .chain(labels.iter().map(String::as_str))
+                .collect();
             let mut table = Table::new(&format!("{caption}, all methods"), &head);
             for method in &scene.methods {
-                let cell = |ends: &(f64, f64)| Cell::number(pick(method).iter().find(|b| same(b.ends, *ends)).and_then(value));
-                if bins.iter().any(|ends| pick(method).iter().any(|b| same(b.ends, *ends) && value(b).is_some())) {
-                    table.row(std::iter::once(Cell::text(&method.name)).chain(bins.iter().map(cell)).collect());
+                let cell =
+                    |ends: &(f64, f64)| Cell::number(pick(method).iter().find(|b| same(b.ends, *ends)).and_then(value));
+                if bins
+                    .iter()
+                    .any(|ends| pick(method).iter().any(|b| same(b.ends, *ends) && value(b).is_some()))
+                {
+                    table.row(
+                        std::iter::once(Cell::text(&method.name))
+                            .chain(bins.iter().map(cell))
+                            .collect(),
+                    );
                 }
             }
             tables += &table.html();
@@ -114,7 +212,10 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
         html += &details("All numbers", &tables);
         out += &if i == 0 { html } else { details(&scene.label, &html) };
     }
-    let total: std::collections::BTreeSet<&str> = scenes.iter().flat_map(|s| s.methods.iter().map(|m| m.name.as_str())).collect();
+    let total: std::collections::BTreeSet<&str> = scenes
+        .iter()
+        .flat_map(|s| s.methods.iter().map(|m| m.name.as_str()))
+        .collect();
     Some(format!(
         "<p>Where a method errs: {} of {} methods, networks first, then the best of each kind over all scenes; exact ones have no curve. Colours and marks \
          are the same in every chart; the lowest line holds all that is smaller, 0 too.</p>\n{out}",
@@ -132,13 +233,13 @@ fn same(a: (f64, f64), b: (f64, f64)) -> bool {
 }
 
 /// Most bins that are shown.
-const MOST_BINS: usize = 40;
+const MAX_BINS: usize = 40;
 
 /// The bins of all methods, in order.
 fn all_bins(scene: &Scene, pick: Pick, value: Value) -> Vec<(f64, f64)> {
     let mut bins: Vec<(f64, f64)> = Vec::new();
     for bin in scene.methods.iter().flat_map(pick).filter(|b| value(b).is_some()) {
-        if !bins.iter().any(|&b| same(b, bin.ends)) && bins.len() < MOST_BINS {
+        if !bins.iter().any(|&b| same(b, bin.ends)) && bins.len() < MAX_BINS {
             bins.push(bin.ends);
         }
     }
@@ -147,7 +248,11 @@ fn all_bins(scene: &Scene, pick: Pick, value: Value) -> Vec<(f64, f64)> {
 }
 
 fn count_text((low, high): (f64, f64)) -> String {
-    if low == high { format!("{low:.0}") } else { format!("{low:.0}–{high:.0}") }
+    if low == high {
+        format!("{low:.0}")
+    } else {
+        format!("{low:.0}–{high:.0}")
+    }
 }
 
 fn alpha_text((low, high): (f64, f64)) -> String {
@@ -167,14 +272,27 @@ mod tests {
                 "bits_per_pixel": u32::MAX, "seconds_accumulate": 0.001, "seconds_weights": 0.25, "fragments": 12345, "depth_complexity": 8,
                 "by_fragments_per_pixel": [bin(1, 1, 0.0), bin(5, 8, t)], "by_alpha": [{ "least_alpha": 0.1, "most_alpha": 0.2, "fragments": 9, "transmittance_mse": t }] })
         };
-        scenes(&found("results.json", json!({ "command": "evaluate", "results": [row("b<", 2.5e-3), row("neural:a", 1e-3)] })))
+        scenes(&found(
+            "results.json",
+            json!({ "command": "evaluate", "results": [row("b<", 2.5e-3), row("neural:a", 1e-3)] }),
+        ))
     }
 
     #[test]
     fn numbers_stand_in_the_table() {
         let html = tables(&sample());
         assert!(html.contains("12,345 fragments, at most 8 in a pixel"));
-        for part in ["10.0000", "25.0000", "30.5", "0.0123", "2.50e-3", "unbounded", ">250<", "neural:a", "b&lt;"] {
+        for part in [
+            "10.0000",
+            "25.0000",
+            "30.5",
+            "0.0123",
+            "2.50e-3",
+            "unbounded",
+            ">250<",
+            "neural:a",
+            "b&lt;",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         assert!(html.find("neural:a").unwrap() < html.find("b&lt;").unwrap());
@@ -184,11 +302,20 @@ mod tests {
     fn curves_have_a_point_a_bin_and_all_numbers_beside_them() {
         let html = curves(&sample()).unwrap();
         assert_eq!(html.matches("<svg class=\"chart\"").count(), 3);
-        for part in ["b&lt;, 5–8: T-MSE 2.50e-3, 9 fragments", "0.1–0.2", "≤1e-", "All numbers", "2 of 2 methods"] {
+        for part in [
+            "b&lt;, 5–8: T-MSE 2.50e-3, 9 fragments",
+            "0.1–0.2",
+            "≤1e-",
+            "All numbers",
+            "2 of 2 methods",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         // Results of an older version have no bins.
-        let old = found("results.json", json!({ "command": "evaluate", "results": [{ "scene": "s", "method": "m", "image_mse": 0.5 }] }));
+        let old = found(
+            "results.json",
+            json!({ "command": "evaluate", "results": [{ "scene": "s", "method": "m", "image_mse": 0.5 }] }),
+        );
         assert!(curves(&scenes(&old)).is_none() && curves(&[]).is_none());
     }
 }

@@ -9,9 +9,9 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Levels of folders below the one that is asked for.
-const MOST_LEVELS: usize = 6;
+const MAX_LEVELS: usize = 6;
 /// Most files and folders that are looked at.
-const MOST_ENTRIES: usize = 50_000;
+const MAX_ENTRIES: usize = 50_000;
 /// Greatest size of a file of numbers \[bytes\].
 const LARGEST_FILE: u64 = 64 << 20;
 /// Greatest size of all of them together \[bytes\].
@@ -29,7 +29,10 @@ pub struct Document {
 impl Document {
     /// The command whose results it holds.
     pub fn command(&self) -> Option<&str> {
-        self.value.get("results").filter(|r| r.is_array()).and_then(|_| self.value.get("command")?.as_str())
+        self.value
+            .get("results")
+            .filter(|r| r.is_array())
+            .and_then(|_| self.value.get("command")?.as_str())
     }
 
     /// The results.
@@ -98,10 +101,17 @@ impl Found {
         let mut entries = 0;
         let mut folders = VecDeque::from([(folder.to_owned(), String::new(), 0)]);
         while let Some((path, prefix, level)) = folders.pop_front() {
-            let listed = std::fs::read_dir(&path).and_then(|entries| entries.take(MOST_ENTRIES + 1).collect::<Result<Vec<_>, _>>());
+            let listed = std::fs::read_dir(&path)
+                .and_then(|entries| entries.take(MAX_ENTRIES + 1).collect::<Result<Vec<_>, _>>());
             let mut listed = match listed {
                 Ok(listed) => listed,
-                Err(source) if level == 0 => return Err(FileError::Io { path, action: "cannot read the folder", source }),
+                Err(source) if level == 0 => {
+                    return Err(FileError::Io {
+                        path,
+                        action: "cannot read the folder",
+                        source,
+                    });
+                }
                 Err(error) => {
                     found.problem(&prefix, format!("cannot be read: {error}"));
                     continue;
@@ -110,8 +120,13 @@ impl Found {
             listed.sort_by_key(std::fs::DirEntry::file_name);
             for entry in listed {
                 entries += 1;
-                if entries > MOST_ENTRIES {
-                    found.problem(&prefix, format!("more than {MOST_ENTRIES} files and folders; the rest is left out, so name a smaller folder"));
+                if entries > MAX_ENTRIES {
+                    found.problem(
+                        &prefix,
+                        format!(
+                            "more than {MAX_ENTRIES} files and folders; the rest is left out, so name a smaller folder"
+                        ),
+                    );
                     folders.clear();
                     break;
                 }
@@ -122,10 +137,13 @@ impl Found {
                 }
                 let full = format!("{prefix}{name}");
                 if kind.is_dir() {
-                    if level < MOST_LEVELS {
+                    if level < MAX_LEVELS {
                         folders.push_back((entry.path(), format!("{full}/"), level + 1));
                     } else {
-                        found.problem(&full, format!("is more than {MOST_LEVELS} folders deep and left out; name a folder closer to it"));
+                        found.problem(
+                            &full,
+                            format!("is more than {MAX_LEVELS} folders deep and left out; name a folder closer to it"),
+                        );
                     }
                 } else if kind.is_file() {
                     files.push((full, entry.path()));
@@ -146,7 +164,9 @@ impl Found {
                 "json" if !name.ends_with(".checkpoint.json") => found.json(name, path, &mut total, &mut seen),
                 "csv" if name.ends_with("losses.csv") => {
                     if let Some(content) = found.content(&name, path, &mut total) {
-                        found.losses.insert(name, String::from_utf8_lossy(&content).into_owned());
+                        found
+                            .losses
+                            .insert(name, String::from_utf8_lossy(&content).into_owned());
                     }
                 }
                 _ => {}
@@ -156,11 +176,18 @@ impl Found {
     }
 
     fn json(&mut self, name: String, path: PathBuf, total: &mut u64, seen: &mut HashMap<String, String>) {
-        let Some(content) = self.content(&name, path, total) else { return };
+        let Some(content) = self.content(&name, path, total) else {
+            return;
+        };
         match serde_json::from_slice::<Value>(&content) {
-            Err(error) => self.problem(&name, format!("is not whole JSON ({error}); write it again with the command that made it")),
+            Err(error) => self.problem(
+                &name,
+                format!("is not whole JSON ({error}); write it again with the command that made it"),
+            ),
             Ok(value) => {
-                let first = seen.entry(sha256_hex([content.as_slice()])).or_insert_with(|| name.clone());
+                let first = seen
+                    .entry(sha256_hex([content.as_slice()]))
+                    .or_insert_with(|| name.clone());
                 if *first != name {
                     self.copies.push((name, first.clone()));
                     return;
@@ -183,7 +210,14 @@ impl Found {
         match read {
             Err(error) => self.problem(name, format!("cannot be read: {error}")),
             Ok(n) if n as u64 > most => {
-                self.problem(name, format!("is left out: a file may have {}, and all together {}", bytes(LARGEST_FILE), bytes(LARGEST_TOTAL)));
+                self.problem(
+                    name,
+                    format!(
+                        "is left out: a file may have {}, and all together {}",
+                        bytes(LARGEST_FILE),
+                        bytes(LARGEST_TOTAL)
+                    ),
+                );
             }
             Ok(n) => {
                 *total += n as u64;
@@ -196,8 +230,15 @@ impl Found {
 
     /// Notes what could not be used.
     pub fn problem(&mut self, name: &str, reason: String) {
-        let name = if name.is_empty() { "the folder" } else { name.trim_end_matches('/') };
-        self.problems.push(Problem { name: name.to_owned(), reason });
+        let name = if name.is_empty() {
+            "the folder"
+        } else {
+            name.trim_end_matches('/')
+        };
+        self.problems.push(Problem {
+            name: name.to_owned(),
+            reason,
+        });
     }
 }
 
@@ -232,7 +273,10 @@ mod tests {
         let names: Vec<&str> = found.documents.iter().map(|d| d.name.as_str()).collect();
         assert_eq!(names, ["e/results.json", "m/model.json"]);
         assert_eq!((found.documents[0].folder(), found.of("evaluate").count()), ("e/", 1));
-        assert_eq!(found.copies, [("m/exports/m.json".to_owned(), "m/model.json".to_owned())]);
+        assert_eq!(
+            found.copies,
+            [("m/exports/m.json".to_owned(), "m/model.json".to_owned())]
+        );
         assert_eq!((found.losses.len(), found.pictures.len(), found.others), (1, 1, 2));
         let problems: Vec<&str> = found.problems.iter().map(|p| p.name.as_str()).collect();
         assert_eq!(problems, ["1/2/3/4/5/6/7", "broken.json", "deep.json", "huge.json"]);

@@ -32,7 +32,9 @@ fn push_escaped(out: &mut String, c: char) {
         '\'' => out.push_str("&#39;"),
         '\n' | '\t' => out.push(c),
         // Control characters, and marks that turn the direction of what follows.
-        c if c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c) || ('\u{2066}'..='\u{2069}').contains(&c) => out.push('\u{fffd}'),
+        c if c.is_control() || ('\u{202a}'..='\u{202e}').contains(&c) || ('\u{2066}'..='\u{2069}').contains(&c) => {
+            out.push('\u{fffd}')
+        }
         c => out.push(c),
     }
 }
@@ -42,10 +44,17 @@ pub fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(base64_length(bytes.len() as u64) as usize);
     for chunk in bytes.chunks(3) {
-        let word = chunk.iter().enumerate().fold(0u32, |word, (i, &b)| word | u32::from(b) << (16 - 8 * i));
+        let word = chunk
+            .iter()
+            .enumerate()
+            .fold(0u32, |word, (i, &b)| word | u32::from(b) << (16 - 8 * i));
         for digit in 0..4 {
             let value = word >> (18 - 6 * digit) & 63;
-            out.push(if digit <= chunk.len() { DIGITS[value as usize] as char } else { '=' });
+            out.push(if digit <= chunk.len() {
+                DIGITS[value as usize] as char
+            } else {
+                '='
+            });
         }
     }
     out
@@ -111,7 +120,10 @@ pub struct Cell {
 impl Cell {
     /// Plain text.
     pub fn text(text: &str) -> Self {
-        Self { html: escape(text), ..Self::default() }
+        Self {
+            html: escape(text),
+            ..Self::default()
+        }
     }
 
     /// A number, or a dash where there is none.
@@ -121,12 +133,20 @@ impl Cell {
 
     /// A number in a form of its own, or a dash where there is none.
     pub fn shown(x: Option<f64>, form: impl Fn(f64) -> String) -> Self {
-        Self { html: x.map_or("–".to_owned(), |x| escape(&form(x))), value: x.filter(|x| !x.is_nan()), numeric: true, ..Self::default() }
+        Self {
+            html: x.map_or("–".to_owned(), |x| escape(&form(x))),
+            value: x.filter(|x| !x.is_nan()),
+            numeric: true,
+            ..Self::default()
+        }
     }
 
     /// A drawing of numbers alone.
     pub fn svg(svg: &str) -> Self {
-        Self { html: svg.to_owned(), ..Self::default() }
+        Self {
+            html: svg.to_owned(),
+            ..Self::default()
+        }
     }
 
     /// The same in a colour of its own; what the colour says must stand in the text too.
@@ -141,7 +161,10 @@ impl Cell {
 
     /// The same with a text that is shown on hovering.
     pub fn titled(self, title: &str) -> Self {
-        Self { title: escape(title), ..self }
+        Self {
+            title: escape(title),
+            ..self
+        }
     }
 
     fn open(&self, tag: &str, more: &str) -> String {
@@ -160,7 +183,7 @@ impl Cell {
 }
 
 /// Most rows of a table that are shown.
-pub const MOST_ROWS: usize = 400;
+pub const MAX_ROWS: usize = 400;
 
 /// A table with a caption; the first cell of a row names it. A table can be sorted by each column where scripts run.
 #[derive(Debug, Default)]
@@ -174,7 +197,11 @@ pub struct Table {
 impl Table {
     /// A table of nothing yet.
     pub fn new(caption: &str, head: &[&str]) -> Self {
-        Self { caption: escape(caption), head: head.iter().map(|h| escape(h)).collect(), ..Self::default() }
+        Self {
+            caption: escape(caption),
+            head: head.iter().map(|h| escape(h)).collect(),
+            ..Self::default()
+        }
     }
 
     /// Column names are written from bottom to top, for many narrow columns.
@@ -195,24 +222,36 @@ impl Table {
     /// The table, in a box of its own that scrolls where it is too wide.
     pub fn html(&self) -> String {
         let upright = if self.upright { " upright" } else { "" };
-        let mut out =
-            format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"data{upright}\">", self.caption);
+        let mut out = format!(
+            "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"data{upright}\">",
+            self.caption
+        );
         out += &format!("<caption><span>{}</span></caption><thead><tr>", self.caption);
         for (i, name) in self.head.iter().enumerate() {
             let numeric = self.rows.iter().any(|row| row.get(i).is_some_and(|cell| cell.numeric));
-            out += &format!("<th scope=\"col\"{}><span>{name}</span></th>", if numeric { " class=\"n\"" } else { "" });
+            out += &format!(
+                "<th scope=\"col\"{}><span>{name}</span></th>",
+                if numeric { " class=\"n\"" } else { "" }
+            );
         }
         out += "</tr></thead><tbody>\n";
-        for row in self.rows.iter().take(MOST_ROWS) {
+        for row in self.rows.iter().take(MAX_ROWS) {
             out += "<tr>";
             for (i, cell) in row.iter().enumerate() {
-                out += &if i == 0 { cell.open("th", " scope=\"row\"") } else { cell.open("td", "") };
+                out += &if i == 0 {
+                    cell.open("th", " scope=\"row\"")
+                } else {
+                    cell.open("td", "")
+                };
             }
             out += "</tr>\n";
         }
         out += "</tbody></table></div>\n";
-        if self.rows.len() > MOST_ROWS {
-            out += &format!("<p class=\"note\">{} more rows are left out.</p>\n", self.rows.len() - MOST_ROWS);
+        if self.rows.len() > MAX_ROWS {
+            out += &format!(
+                "<p class=\"note\">{} more rows are left out.</p>\n",
+                self.rows.len() - MAX_ROWS
+            );
         }
         out
     }
@@ -220,7 +259,10 @@ impl Table {
 
 /// Names and values, each on a line.
 pub fn definitions(pairs: &[(&str, String)]) -> String {
-    let lines: String = pairs.iter().map(|(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value))).collect();
+    let lines: String = pairs
+        .iter()
+        .map(|(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(value)))
+        .collect();
     format!("<dl>{lines}</dl>\n")
 }
 
@@ -236,7 +278,10 @@ mod tests {
     #[test]
     fn nothing_in_text_is_markup() {
         let hostile = "<script>alert(\"1\")</script> & 'x'\u{0}\u{202e}";
-        assert_eq!(escape(hostile), "&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;\u{fffd}\u{fffd}");
+        assert_eq!(
+            escape(hostile),
+            "&lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; &#39;x&#39;\u{fffd}\u{fffd}"
+        );
         assert_eq!(escape_whole(hostile), escape(hostile));
         let long = "é<".repeat(LONGEST);
         assert_eq!(escape(&long).chars().filter(|&c| c == 'é').count(), LONGEST / 2);
@@ -248,9 +293,15 @@ mod tests {
     /// The examples of RFC 4648, section 10.
     #[test]
     fn base64_as_its_standard_prints_it() {
-        for (plain, encoded) in
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE="), ("foobar", "Zm9vYmFy")]
-        {
+        for (plain, encoded) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ] {
             assert_eq!(base64(plain.as_bytes()), encoded);
             assert_eq!(base64_length(plain.len() as u64), encoded.len() as u64);
         }
@@ -278,21 +329,30 @@ mod tests {
         for (x, text) in cases {
             assert_eq!(number(x), text);
         }
-        assert_eq!([bytes(10), bytes(2048), bytes(3 << 20)], ["10 bytes", "2.0 KiB", "3.0 MiB"]);
+        assert_eq!(
+            [bytes(10), bytes(2048), bytes(3 << 20)],
+            ["10 bytes", "2.0 KiB", "3.0 MiB"]
+        );
     }
 
     #[test]
     fn tables_name_rows_and_columns_and_say_what_they_leave_out() {
         let mut table = Table::new("a & b", &["method", "x"]);
-        for _ in 0..MOST_ROWS + 2 {
-            table.row(vec![Cell::text("<m>"), Cell::number(Some(f64::NAN)), Cell::number(None)]);
+        for _ in 0..MAX_ROWS + 2 {
+            table.row(vec![
+                Cell::text("<m>"),
+                Cell::number(Some(f64::NAN)),
+                Cell::number(None),
+            ]);
         }
         let html = table.html();
         assert!(
             html.contains("<caption><span>a &amp; b</span></caption>")
-                && html.contains("<th scope=\"col\"><span>method</span></th><th scope=\"col\" class=\"n\"><span>x</span></th>")
+                && html.contains(
+                    "<th scope=\"col\"><span>method</span></th><th scope=\"col\" class=\"n\"><span>x</span></th>"
+                )
         );
         assert!(html.contains("<th scope=\"row\">&lt;m&gt;</th><td class=\"n\">NaN</td><td class=\"n\">–</td>"));
-        assert!(html.contains("2 more rows are left out") && html.matches("<tr>").count() == MOST_ROWS + 1);
+        assert!(html.contains("2 more rows are left out") && html.matches("<tr>").count() == MAX_ROWS + 1);
     }
 }

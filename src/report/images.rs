@@ -9,7 +9,7 @@ use crate::evaluate::picture::file_stem;
 use std::collections::BTreeMap;
 
 /// Most pictures of a contact sheet that is open at first.
-const MOST_OPEN: usize = 15;
+const MAX_OPEN: usize = 15;
 
 /// Pictures of a scene by name in the folder.
 struct Wanted {
@@ -21,9 +21,15 @@ struct Wanted {
 fn wanted(scene: &Scene) -> Wanted {
     let of = |m: &Method| {
         let stem = m.picture.clone().unwrap_or_else(|| file_stem(&m.name));
-        [format!("{}{stem}.png", scene.prefix), format!("{}{stem}.flip.png", scene.prefix)]
+        [
+            format!("{}{stem}.png", scene.prefix),
+            format!("{}{stem}.flip.png", scene.prefix),
+        ]
     };
-    Wanted { truth: format!("{}truth.png", scene.prefix), methods: scene.methods.iter().map(of).collect() }
+    Wanted {
+        truth: format!("{}truth.png", scene.prefix),
+        methods: scene.methods.iter().map(of).collect(),
+    }
 }
 
 /// A picture that was read: its size and its data URI.
@@ -54,8 +60,14 @@ pub struct Images {
 
 /// Checks that bytes are a whole PNG and tells its width and height.
 fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
-    let word = |at: usize| bytes.get(at..at + 4).map(|b| u32::from_be_bytes([b[0], b[1], b[2], b[3]]));
-    let whole = bytes.starts_with(b"\x89PNG\r\n\x1a\n") && bytes.get(12..16) == Some(b"IHDR") && bytes.ends_with(b"\0\0\0\0IEND\xaeB\x60\x82");
+    let word = |at: usize| {
+        bytes
+            .get(at..at + 4)
+            .map(|b| u32::from_be_bytes([b[0], b[1], b[2], b[3]]))
+    };
+    let whole = bytes.starts_with(b"\x89PNG\r\n\x1a\n")
+        && bytes.get(12..16) == Some(b"IHDR")
+        && bytes.ends_with(b"\0\0\0\0IEND\xaeB\x60\x82");
     let size = (word(16)?, word(20)?);
     let sane = |v: u32| (1..=1 << 16).contains(&v);
     (whole && sane(size.0) && sane(size.1)).then_some(size)
@@ -64,12 +76,15 @@ fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
 /// Reads pictures, most wanted first: exact images, then images by rank, then FLIP maps by rank, so long as they fit.
 fn gather(found: &mut Found, all: &[Wanted], most_bytes: u64) -> Gallery {
     let ranks = all.iter().map(|w| w.methods.len()).max().unwrap_or(0);
-    let ranked = |kind: usize| (0..ranks).flat_map(move |r| all.iter().filter_map(move |w| w.methods.get(r).map(|m| &m[kind])));
+    let ranked =
+        |kind: usize| (0..ranks).flat_map(move |r| all.iter().filter_map(move |w| w.methods.get(r).map(|m| &m[kind])));
     let order: Vec<&String> = all.iter().map(|w| &w.truth).chain(ranked(0)).chain(ranked(1)).collect();
     let mut gallery = Gallery::default();
     let mut left = most_bytes;
     for name in order {
-        let Some((path, size)) = found.pictures.get(name).cloned() else { continue };
+        let Some((path, size)) = found.pictures.get(name).cloned() else {
+            continue;
+        };
         if gallery.pictures.contains_key(name) || gallery.left_out.contains(name) {
             continue;
         }
@@ -91,7 +106,14 @@ fn gather(found: &mut Found, all: &[Wanted], most_bytes: u64) -> Gallery {
         };
         left -= base64_length(size);
         found.read.push(path);
-        gallery.pictures.insert(name.clone(), Picture { width, height, uri: format!("data:image/png;base64,{}", base64(&data)) });
+        gallery.pictures.insert(
+            name.clone(),
+            Picture {
+                width,
+                height,
+                uri: format!("data:image/png;base64,{}", base64(&data)),
+            },
+        );
     }
     gallery
 }
@@ -109,13 +131,24 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
         }
         for (method, names) in scene.methods.iter().zip(&wanted.methods) {
             if let Some(image) = gallery.pictures.get(&names[0]) {
-                figures += &figure(i, &method.name, &stats(method), &scene.label, image, gallery.pictures.get(&names[1]));
+                figures += &figure(
+                    i,
+                    &method.name,
+                    &stats(method),
+                    &scene.label,
+                    image,
+                    gallery.pictures.get(&names[1]),
+                );
                 usable = true;
             }
         }
         if !figures.is_empty() {
             // Long sheets wait to be asked for; the viewer shows their pictures meanwhile.
-            let open = if sheets.is_empty() && figures.matches("<figure").count() <= MOST_OPEN { " open" } else { "" };
+            let open = if sheets.is_empty() && figures.matches("<figure").count() <= MAX_OPEN {
+                " open"
+            } else {
+                ""
+            };
             sheets += &format!(
                 "<details class=\"sheet\"{open}><summary>{}</summary><div class=\"shots\" data-scene=\"{i}\" data-label=\"{}\">\n{figures}</div></details>\n",
                 escape(&scene.label),
@@ -136,16 +169,28 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
             bytes(most_bytes)
         );
     }
-    Images { html: (!html.is_empty()).then_some(html), embedded: gallery.pictures.len(), left_out: gallery.left_out }
+    Images {
+        html: (!html.is_empty()).then_some(html),
+        embedded: gallery.pictures.len(),
+        left_out: gallery.left_out,
+    }
 }
 
 /// The numbers below a picture.
 fn stats(method: &Method) -> String {
-    let parts: Vec<String> = [("image MSE", method.image_mse), ("FLIP", method.flip), ("T-MSE", method.t_mse)]
-        .into_iter()
-        .filter_map(|(name, x)| Some(format!("{name} {}", number(x?))))
-        .collect();
-    let bad = if method.nonfinite > 0.0 { format!(", {} values not finite", number(method.nonfinite)) } else { String::new() };
+    let parts: Vec<String> = [
+        ("image MSE", method.image_mse),
+        ("FLIP", method.flip),
+        ("T-MSE", method.t_mse),
+    ]
+    .into_iter()
+    .filter_map(|(name, x)| Some(format!("{name} {}", number(x?))))
+    .collect();
+    let bad = if method.nonfinite > 0.0 {
+        format!(", {} values not finite", number(method.nonfinite))
+    } else {
+        String::new()
+    };
     parts.join(", ") + &bad
 }
 
@@ -158,7 +203,9 @@ fn figure(scene: usize, name: &str, stats: &str, label: &str, image: &Picture, f
         )
     };
     let picture = img("image", image, format!("{label}, {name}"));
-    let map = flip.map_or(String::new(), |f| img("flip", f, format!("FLIP map of {label}, {name}")));
+    let map = flip.map_or(String::new(), |f| {
+        img("flip", f, format!("FLIP map of {label}, {name}"))
+    });
     format!(
         "<figure class=\"shot\" data-scene=\"{scene}\" data-name=\"{name}\" data-stats=\"{stats}\">\
          <button type=\"button\" class=\"pick\" aria-label=\"Show {name} in the viewer\">{picture}{map}</button>\
@@ -193,7 +240,9 @@ pub mod tests {
     pub fn png(width: u32, height: u32) -> Vec<u8> {
         let mut bytes = Vec::new();
         let picture = image::RgbImage::from_pixel(width, height, image::Rgb([200, 30, 90]));
-        picture.write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png).unwrap();
+        picture
+            .write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png)
+            .unwrap();
         bytes
     }
 
@@ -211,16 +260,28 @@ pub mod tests {
 
     fn folder() -> (tempfile::TempDir, Found) {
         let folder = tempfile::tempdir().unwrap();
-        let row =
-            |m: &str, mse: f64| json!({ "scene": "s", "method": m, "image_mse": mse, "flip_mean": 0.5, "transmittance_mse": null, "nonfinite": 0 });
-        let mut rows = vec![row("a", 1e-3), row("neural:<b>", 2e-3), row("c", 3e-3), row("../up", 4e-3)];
+        let row = |m: &str, mse: f64| json!({ "scene": "s", "method": m, "image_mse": mse, "flip_mean": 0.5, "transmittance_mse": null, "nonfinite": 0 });
+        let mut rows = vec![
+            row("a", 1e-3),
+            row("neural:<b>", 2e-3),
+            row("c", 3e-3),
+            row("../up", 4e-3),
+        ];
         rows[1]["picture"] = json!("b-file");
         rows[3]["picture"] = json!("../../secret");
         let mut found = found("results.json", json!({ "command": "evaluate", "results": rows }));
-        for (name, bytes) in [("truth", png(4, 3)), ("a", png(4, 3)), ("a.flip", png(4, 3)), ("b-file", png(4, 3)), ("c", png(4, 3)[..40].to_vec())] {
+        for (name, bytes) in [
+            ("truth", png(4, 3)),
+            ("a", png(4, 3)),
+            ("a.flip", png(4, 3)),
+            ("b-file", png(4, 3)),
+            ("c", png(4, 3)[..40].to_vec()),
+        ] {
             let path = folder.path().join(format!("{name}.png"));
             std::fs::write(&path, &bytes).unwrap();
-            found.pictures.insert(format!("s/{name}.png"), (path, bytes.len() as u64));
+            found
+                .pictures
+                .insert(format!("s/{name}.png"), (path, bytes.len() as u64));
         }
         std::fs::write(folder.path().join("secret.png"), png(1, 1)).unwrap();
         (folder, found)
@@ -233,11 +294,23 @@ pub mod tests {
         let scenes = scenes(&found);
         let images = section(&mut found, &scenes, 1 << 20);
         let html = images.html.unwrap();
-        assert_eq!((images.embedded, html.matches("data:image/png;base64,").count(), images.left_out.len()), (4, 4, 0));
-        assert!(
-            html.contains("alt=\"FLIP map of s, a\"") && html.contains("data-name=\"neural:&lt;b&gt;\"") && html.contains("width=\"4\" height=\"3\"")
+        assert_eq!(
+            (
+                images.embedded,
+                html.matches("data:image/png;base64,").count(),
+                images.left_out.len()
+            ),
+            (4, 4, 0)
         );
-        assert_eq!(found.problems.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(), ["s/c.png"]);
+        assert!(
+            html.contains("alt=\"FLIP map of s, a\"")
+                && html.contains("data-name=\"neural:&lt;b&gt;\"")
+                && html.contains("width=\"4\" height=\"3\"")
+        );
+        assert_eq!(
+            found.problems.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(),
+            ["s/c.png"]
+        );
         assert_eq!(found.read.len(), 4);
     }
 

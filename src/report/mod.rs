@@ -56,7 +56,9 @@ pub struct Options {
 impl Default for Options {
     /// 64 MiB.
     fn default() -> Self {
-        Self { most_picture_bytes: 64 << 20 }
+        Self {
+            most_picture_bytes: 64 << 20,
+        }
     }
 }
 
@@ -108,19 +110,56 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
     let scenes = scenes::scenes(&found);
     let mut wrong = Vec::new();
     let training = training::section(&found, &mut wrong);
-    wrong.into_iter().for_each(|(name, reason)| found.problem(&name, reason));
+    wrong
+        .into_iter()
+        .for_each(|(name, reason)| found.problem(&name, reason));
     let images = images::section(&mut found, &scenes, options.most_picture_bytes);
     let (time, benchmarked) = time::section(&found, &scenes);
 
-    let section = |id, title, html, what, command| Section { id, title, html, missing: Missing { what, command } };
+    let section = |id, title, html, what, command| Section {
+        id,
+        title,
+        html,
+        missing: Missing { what, command },
+    };
     let evaluate = "nmt evaluate --fragments SCENE --model MODEL.json --out DIR";
     let sections = [
         section("images", "Images", images.html, "images beside the exact one", evaluate),
-        section("errors", "Errors", (!scenes.is_empty()).then(|| errors::tables(&scenes)), "errors of methods on scenes", evaluate),
-        section("time", "Run time against error", time, "run time against error", "nmt bench methods --fragments SCENE --out DIR"),
-        section("curves", "Error against depth complexity and alpha", errors::curves(&scenes), "errors by depth complexity and alpha", evaluate),
-        section("training", "Training", training, "networks and their training curves", "nmt run CONFIG --out DIR"),
-        section("stress", "Numerical stability", stress::section(&found), "numerical stability", "nmt stress --model MODEL.json --out DIR"),
+        section(
+            "errors",
+            "Errors",
+            (!scenes.is_empty()).then(|| errors::tables(&scenes)),
+            "errors of methods on scenes",
+            evaluate,
+        ),
+        section(
+            "time",
+            "Run time against error",
+            time,
+            "run time against error",
+            "nmt bench methods --fragments SCENE --out DIR",
+        ),
+        section(
+            "curves",
+            "Error against depth complexity and alpha",
+            errors::curves(&scenes),
+            "errors by depth complexity and alpha",
+            evaluate,
+        ),
+        section(
+            "training",
+            "Training",
+            training,
+            "networks and their training curves",
+            "nmt run CONFIG --out DIR",
+        ),
+        section(
+            "stress",
+            "Numerical stability",
+            stress::section(&found),
+            "numerical stability",
+            "nmt stress --model MODEL.json --out DIR",
+        ),
         section(
             "speed",
             "Speed of training, inference and generation",
@@ -128,18 +167,40 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
             "speed of training, inference and generation",
             "nmt bench train --json > DIR/train.json",
         ),
-        section("profile", "What scenes need", profile::section(&found), "what scenes need", "nmt profile --fragments SCENE --out DIR"),
-        section("checks", "Exports", checks::section(&found), "checks of exports", "nmt check MODEL.json --exports EXPORTS --json > DIR/check.json"),
+        section(
+            "profile",
+            "What scenes need",
+            profile::section(&found),
+            "what scenes need",
+            "nmt profile --fragments SCENE --out DIR",
+        ),
+        section(
+            "checks",
+            "Exports",
+            checks::section(&found),
+            "checks of exports",
+            "nmt check MODEL.json --exports EXPORTS --json > DIR/check.json",
+        ),
     ];
-    let mut missing: Vec<Missing> = sections.iter().filter(|s| s.html.is_none()).map(|s| s.missing).collect();
+    let mut missing: Vec<Missing> = sections
+        .iter()
+        .filter(|s| s.html.is_none())
+        .map(|s| s.missing)
+        .collect();
     if !benchmarked && sections[2].html.is_some() {
         missing.push(sections[2].missing);
     }
     if sections.iter().all(|s| s.html.is_none()) {
         let problems: String = found.problems.iter().take(5).map(|p| format!("; {p}")).collect();
-        return Err(ReportError::Nothing { path: folder.to_owned(), problems });
+        return Err(ReportError::Nothing {
+            path: folder.to_owned(),
+            problems,
+        });
     }
-    let present: Vec<(&str, &'static str, &str)> = sections.iter().filter_map(|s| Some((s.id, s.title, s.html.as_deref()?))).collect();
+    let present: Vec<(&str, &'static str, &str)> = sections
+        .iter()
+        .filter_map(|s| Some((s.id, s.title, s.html.as_deref()?)))
+        .collect();
     let html = page(folder, &present, &missing, &found);
     Ok(Page {
         html,
@@ -155,13 +216,21 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
 /// Hash of a script as a content security policy names it.
 fn script_hash(script: &str) -> String {
     let hex = sha256_hex([script.as_bytes()]);
-    let bytes: Vec<u8> = (0..hex.len() / 2).map(|i| u8::from_str_radix(&hex[2 * i..2 * i + 2], 16).expect("hexadecimal digits")).collect();
+    let bytes: Vec<u8> = (0..hex.len() / 2)
+        .map(|i| u8::from_str_radix(&hex[2 * i..2 * i + 2], 16).expect("hexadecimal digits"))
+        .collect();
     format!("sha256-{}", base64(&bytes))
 }
 
 fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missing], found: &Found) -> String {
     // The folder's own name alone: a page may be given away, and other people's paths say nothing.
-    let name = folder.canonicalize().ok().as_deref().unwrap_or(folder).file_name().map_or("report".into(), |n| n.to_string_lossy().into_owned());
+    let name = folder
+        .canonicalize()
+        .ok()
+        .as_deref()
+        .unwrap_or(folder)
+        .file_name()
+        .map_or("report".into(), |n| n.to_string_lossy().into_owned());
     let name = escape(&name);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -169,26 +238,38 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name}: nmt report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n",
         script_hash(SCRIPT)
     );
-    out += &format!("<header><h1>{name}</h1>\n<p class=\"note\">Made by nmt {} of {}.</p></header>\n", env!("CARGO_PKG_VERSION"), files(found));
+    out += &format!(
+        "<header><h1>{name}</h1>\n<p class=\"note\">Made by nmt {} of {}.</p></header>\n",
+        env!("CARGO_PKG_VERSION"),
+        files(found)
+    );
     out += "<nav aria-label=\"Sections\"><ul>";
-    let ends = [("files", "Provenance")].into_iter().chain((!missing.is_empty()).then_some(("missing", "Not here")));
+    let ends = [("files", "Provenance")]
+        .into_iter()
+        .chain((!missing.is_empty()).then_some(("missing", "Not here")));
     for (id, title) in sections.iter().map(|s| (s.0, s.1)).chain(ends) {
         out += &format!("<li><a href=\"#{id}\">{title}</a></li>");
     }
     out += "</ul></nav>\n<main>\n";
     if !found.problems.is_empty() {
         out += "<section id=\"problems\"><h2>Files that could not be used</h2>\n<ul>";
-        for problem in found.problems.iter().take(MOST_PROBLEMS) {
-            out += &format!("<li><code>{}</code>: {}</li>\n", escape(&problem.name), escape(&problem.reason));
+        for problem in found.problems.iter().take(MAX_PROBLEMS) {
+            out += &format!(
+                "<li><code>{}</code>: {}</li>\n",
+                escape(&problem.name),
+                escape(&problem.reason)
+            );
         }
         out += "</ul>\n";
-        if found.problems.len() > MOST_PROBLEMS {
-            out += &format!("<p>{} more are not listed.</p>\n", found.problems.len() - MOST_PROBLEMS);
+        if found.problems.len() > MAX_PROBLEMS {
+            out += &format!("<p>{} more are not listed.</p>\n", found.problems.len() - MAX_PROBLEMS);
         }
         out += "</section>\n";
     }
     for (id, title, html) in sections {
-        out += &format!("<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{html}</section>\n");
+        out += &format!(
+            "<section id=\"{id}\" aria-labelledby=\"{id}-title\"><h2 id=\"{id}-title\">{title}</h2>\n{html}</section>\n"
+        );
     }
     out += &format!(
         "<section id=\"files\" aria-labelledby=\"files-title\"><h2 id=\"files-title\">Provenance</h2>\n{}</section>\n",
@@ -205,11 +286,15 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
 }
 
 /// Most problems that are listed.
-const MOST_PROBLEMS: usize = 50;
+const MAX_PROBLEMS: usize = 50;
 
 fn files(found: &Found) -> String {
     let n = found.read.len();
-    format!("{} {}", html::thousands(n as i64), if n == 1 { "file" } else { "files" })
+    format!(
+        "{} {}",
+        html::thousands(n as i64),
+        if n == 1 { "file" } else { "files" }
+    )
 }
 
 #[cfg(test)]
@@ -234,27 +319,53 @@ mod tests {
         let with = |command: &str, rows: serde_json::Value| {
             json!({ "command": command, "version": evil, "machine": { "cpu": evil }, "results": rows }).to_string()
         };
-        write(folder, "e/results.json", with("evaluate", json!([row, refused, null, 5, [], evil])));
+        write(
+            folder,
+            "e/results.json",
+            with("evaluate", json!([row, refused, null, 5, [], evil])),
+        );
         let methods = json!({ "benchmark": "methods", "method": evil, "adapter": evil, "scene": evil, "seconds_weights": 1e-9, "image_mse": 1e-9, "raw_seconds": [evil, 1e300] });
-        let train = json!({ "benchmark": evil, "network": evil, "samples_per_second": 1e300, "raw_seconds": [1, -1, 1e300] });
-        write(folder, "b.json", with("bench", json!([methods, { "benchmark": "methods", "method": evil }, train, evil])));
+        let train =
+            json!({ "benchmark": evil, "network": evil, "samples_per_second": 1e300, "raw_seconds": [1, -1, 1e300] });
+        write(
+            folder,
+            "b.json",
+            with(
+                "bench",
+                json!([methods, { "benchmark": "methods", "method": evil }, train, evil]),
+            ),
+        );
         let case = json!({ "report": { "case": evil, "method": evil, "worst_error": -1e300, "nonfinite": 1 } });
         let sweep = json!({ "sweep": evil, "method": evil, "x": -1, "mse": 0 });
         write(folder, "s.json", with("stress", json!([case, sweep, [case]])));
         write(
             folder,
             "p.json",
-            with("profile", json!([{ "scene": evil, evil: evil, "list": [{ evil: evil, "count": 1e300 }], "mixed": [1, evil, null] }])),
+            with(
+                "profile",
+                json!([{ "scene": evil, evil: evil, "list": [{ evil: evil, "count": 1e300 }], "mixed": [1, evil, null] }]),
+            ),
         );
         write(
             folder,
             "c.json",
-            with("check", json!([{ "format": evil, "tool": 5, "status": evil, "reason": evil, "numbers": [{ "rows": evil, "bar": 1e300 }, evil] }])),
+            with(
+                "check",
+                json!([{ "format": evil, "tool": 5, "status": evil, "reason": evil, "numbers": [{ "rows": evil, "bar": 1e300 }, evil] }]),
+            ),
         );
         let model = json!({ "format": "nmt-model", "version": 1e300, "name": evil, "layer_sizes": [1e300, evil], "provenance": { "config": { evil: evil }, "seed": -1, "best_epoch": 1e300, "epochs": 0 } });
         write(folder, "m/model.json", model.to_string());
-        write(folder, "m/model.losses.csv", format!("epoch,training_loss,validation_loss\n{evil}\n1,1e999,nan\n2,-1,0\n"));
-        write(folder, "broken <b>.json", "{\"command\": \"evaluate\", \"results\": [NaN]}");
+        write(
+            folder,
+            "m/model.losses.csv",
+            format!("epoch,training_loss,validation_loss\n{evil}\n1,1e999,nan\n2,-1,0\n"),
+        );
+        write(
+            folder,
+            "broken <b>.json",
+            "{\"command\": \"evaluate\", \"results\": [NaN]}",
+        );
     }
 
     /// Text from files is text: no tag, attribute or script comes of it, and nothing panics.
@@ -268,9 +379,15 @@ mod tests {
             assert!(!page.html.contains(part), "{part}");
         }
         let count = |part: &str| page.html.matches(part).count();
-        assert_eq!((count("<script"), count("</script"), count("</title>")), (1, 1, count("<title>")));
+        assert_eq!(
+            (count("<script"), count("</script"), count("</title>")),
+            (1, 1, count("<title>"))
+        );
         let broken: Vec<&str> = page.problems.iter().map(|p| p.name.as_str()).collect();
-        assert!(broken.contains(&"broken <b>.json") && page.html.contains("broken &lt;b&gt;.json"), "{broken:?}");
+        assert!(
+            broken.contains(&"broken <b>.json") && page.html.contains("broken &lt;b&gt;.json"),
+            "{broken:?}"
+        );
     }
 
     /// Files cut off anywhere make a page, or an error that names the folder.
@@ -279,7 +396,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         hostile(folder.path());
         let cut = tempfile::tempdir().unwrap();
-        let names = ["e/results.json", "b.json", "s.json", "p.json", "c.json", "m/model.json", "m/model.losses.csv"];
+        let names = [
+            "e/results.json",
+            "b.json",
+            "s.json",
+            "p.json",
+            "c.json",
+            "m/model.json",
+            "m/model.losses.csv",
+        ];
         for share in 0..12 {
             for name in names {
                 let whole = std::fs::read(folder.path().join(name)).unwrap();
@@ -304,20 +429,34 @@ mod tests {
         }
         assert!(a.contains("default-src 'none'; img-src data:") && a.contains(&script_hash(SCRIPT)));
         // A machine's paths stay on it.
-        assert!(!a.contains(folder.path().parent().unwrap().to_str().unwrap()) || folder.path().parent().unwrap().components().count() < 2);
+        assert!(
+            !a.contains(folder.path().parent().unwrap().to_str().unwrap())
+                || folder.path().parent().unwrap().components().count() < 2
+        );
     }
 
     #[test]
     fn what_is_missing_is_said_with_its_command() {
         let folder = tempfile::tempdir().unwrap();
         let nothing = build(folder.path(), &Options::default()).unwrap_err().to_string();
-        assert!(nothing.contains("nmt run") && nothing.contains("nmt evaluate"), "{nothing}");
-        write(folder.path(), "model.json", json!({ "format": "nmt-model", "name": "m" }).to_string());
+        assert!(
+            nothing.contains("nmt run") && nothing.contains("nmt evaluate"),
+            "{nothing}"
+        );
+        write(
+            folder.path(),
+            "model.json",
+            json!({ "format": "nmt-model", "name": "m" }).to_string(),
+        );
         let page = build(folder.path(), &Options::default()).unwrap();
         assert_eq!(page.sections, ["Training"]);
         assert_eq!(page.missing.len(), 8);
         for m in &page.missing {
-            assert!(page.html.contains(&format!("<li>{}: <code>{}</code></li>", escape(m.what), escape(m.command))));
+            assert!(page.html.contains(&format!(
+                "<li>{}: <code>{}</code></li>",
+                escape(m.what),
+                escape(m.command)
+            )));
         }
         assert!(build(&folder.path().join("none"), &Options::default()).is_err());
     }
@@ -325,7 +464,10 @@ mod tests {
     /// The policy's hash is that of what stands between the tags, as a browser computes it. The known answer is RFC 6234's digest of "abc" in base64.
     #[test]
     fn the_policy_names_the_script() {
-        assert_eq!(script_hash("abc"), "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+        assert_eq!(
+            script_hash("abc"),
+            "sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0="
+        );
         assert!(!SCRIPT.contains("</script") && !SCRIPT.contains("innerHTML") && !STYLE.contains("</style"));
     }
 }

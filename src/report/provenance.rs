@@ -10,27 +10,62 @@ const LONGEST_CONFIG: usize = 200_000;
 
 /// The section.
 pub fn section(found: &Found) -> String {
-    let mut table = Table::new("Files that this page is made of", &["file", "written by", "version", "machine", "results"]);
+    let mut table = Table::new(
+        "Files that this page is made of",
+        &["file", "written by", "version", "machine", "results"],
+    );
     for document in &found.documents {
         let (by, version) = match document.command() {
-            Some(command) => (format!("nmt {command}"), text(&document.value, &["version"]).unwrap_or("–").to_owned()),
-            None => ("model".to_owned(), number(&document.value, &["version"]).map_or("–".to_owned(), |v| format!("format {v:.0}"))),
+            Some(command) => (
+                format!("nmt {command}"),
+                text(&document.value, &["version"]).unwrap_or("–").to_owned(),
+            ),
+            None => (
+                "model".to_owned(),
+                number(&document.value, &["version"]).map_or("–".to_owned(), |v| format!("format {v:.0}")),
+            ),
         };
         let machine = document.value.get("machine").map_or(String::new(), machine);
         let results = document.command().map(|_| document.results().len() as f64);
-        table.row(vec![Cell::text(&document.name), Cell::text(&by), Cell::text(&version), Cell::text(&machine), Cell::number(results)]);
+        table.row(vec![
+            Cell::text(&document.name),
+            Cell::text(&by),
+            Cell::text(&version),
+            Cell::text(&machine),
+            Cell::number(results),
+        ]);
     }
     for name in found.losses.keys() {
-        table.row(vec![Cell::text(name), Cell::text("losses"), Cell::text("–"), Cell::text(""), Cell::number(None)]);
+        table.row(vec![
+            Cell::text(name),
+            Cell::text("losses"),
+            Cell::text("–"),
+            Cell::text(""),
+            Cell::number(None),
+        ]);
     }
     let mut out = table.html();
     if !found.copies.is_empty() {
-        let names: Vec<String> = found.copies.iter().take(20).map(|(copy, of)| format!("{copy} (as {of})")).collect();
-        let more = if found.copies.len() > 20 { format!(" and {} more", found.copies.len() - 20) } else { String::new() };
-        out += &format!("<p class=\"note\">Same content as another file, and left out: {}{more}.</p>\n", escape(&names.join(", ")));
+        let names: Vec<String> = found
+            .copies
+            .iter()
+            .take(20)
+            .map(|(copy, of)| format!("{copy} (as {of})"))
+            .collect();
+        let more = if found.copies.len() > 20 {
+            format!(" and {} more", found.copies.len() - 20)
+        } else {
+            String::new()
+        };
+        out += &format!(
+            "<p class=\"note\">Same content as another file, and left out: {}{more}.</p>\n",
+            escape(&names.join(", "))
+        );
     }
     for model in found.documents.iter().filter(|d| d.is_model()) {
-        let Some(p) = model.value.get("provenance").and_then(Value::as_object) else { continue };
+        let Some(p) = model.value.get("provenance").and_then(Value::as_object) else {
+            continue;
+        };
         let name = text(&model.value, &["name"]).unwrap_or(&model.name);
         let plain: Vec<(String, String)> = p.iter().filter_map(|(k, v)| Some((words(k), raw(k, v)?))).collect();
         let mut html = definitions(&plain.iter().map(|(k, v)| (k.as_str(), v.clone())).collect::<Vec<_>>());
@@ -46,7 +81,11 @@ pub fn section(found: &Found) -> String {
 
 /// A plain value; seeds as they stand, without commas.
 fn raw(key: &str, value: &Value) -> Option<String> {
-    if key == "seed" && value.is_number() { Some(value.to_string()) } else { scalar(value) }
+    if key == "seed" && value.is_number() {
+        Some(value.to_string())
+    } else {
+        scalar(value)
+    }
 }
 
 fn machine(value: &Value) -> String {
@@ -71,9 +110,11 @@ mod tests {
             "e/results.json",
             json!({ "command": "evaluate", "version": "0.1.0", "machine": { "cpu": "C <1>", "threads": 2 }, "results": [1, 2] }),
         );
-        let model =
-            json!({ "format": "nmt-model", "version": 1, "name": "m", "provenance": { "seed": 12345, "commit": "abc", "config": { "k": "<v>" } } });
-        found.documents.push(crate::report::find::Document { name: "m.json".to_owned(), value: model });
+        let model = json!({ "format": "nmt-model", "version": 1, "name": "m", "provenance": { "seed": 12345, "commit": "abc", "config": { "k": "<v>" } } });
+        found.documents.push(crate::report::find::Document {
+            name: "m.json".to_owned(),
+            value: model,
+        });
         found.copies.push(("x.json".to_owned(), "m.json".to_owned()));
         let html = section(&found);
         for part in [

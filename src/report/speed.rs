@@ -10,11 +10,27 @@ use serde_json::Value;
 pub fn section(found: &Found) -> Option<String> {
     let mut out = String::new();
     for document in found.of("bench") {
-        let rows: Vec<&Value> = document.results().iter().filter(|r| !is_timed(r) && r.is_object()).collect();
+        let rows: Vec<&Value> = document
+            .results()
+            .iter()
+            .filter(|r| !is_timed(r) && r.is_object())
+            .collect();
         if rows.is_empty() {
             continue;
         }
-        let head = ["benchmark", "what", "backend", "batch", "per second", "median ms", "least", "greatest", "MAD", "of peak", "raw samples"];
+        let head = [
+            "benchmark",
+            "what",
+            "backend",
+            "batch",
+            "per second",
+            "median ms",
+            "least",
+            "greatest",
+            "MAD",
+            "of peak",
+            "raw samples",
+        ];
         let mut table = Table::new(&document.name, &head);
         for row in rows {
             let ms = |key: &str| Cell::number(number_of(row, &[key]).map(|s| 1e3 * s));
@@ -40,8 +56,15 @@ pub fn section(found: &Found) -> Option<String> {
 
 /// The first rate of a row, with its unit.
 fn rate(row: &Value) -> Cell {
-    let keys = ["samples_per_second", "pairs_per_second", "fragments_per_second", "rows_per_second"];
-    let found = keys.iter().find_map(|key| Some((number_of(row, &[key])?, key.strip_suffix("_per_second")?)));
+    let keys = [
+        "samples_per_second",
+        "pairs_per_second",
+        "fragments_per_second",
+        "rows_per_second",
+    ];
+    let found = keys
+        .iter()
+        .find_map(|key| Some((number_of(row, &[key])?, key.strip_suffix("_per_second")?)));
     match found {
         None => Cell::number(None),
         Some((x, unit)) if x >= 1e6 => Cell::shown(Some(x), |x| format!("{} M {unit}", number(x / 1e6))),
@@ -50,7 +73,7 @@ fn rate(row: &Value) -> Cell {
 }
 
 /// Most samples that are drawn.
-const MOST_SAMPLES: usize = 200;
+const MAX_SAMPLES: usize = 200;
 
 /// Samples as short strokes along a line.
 fn strip(samples: &[f64]) -> Cell {
@@ -58,7 +81,11 @@ fn strip(samples: &[f64]) -> Cell {
     if samples.is_empty() || !(greatest > 0.0 && greatest.is_finite()) {
         return Cell::number(None);
     }
-    let strokes: String = samples.iter().take(MOST_SAMPLES).map(|s| format!("M{:.1} 3V13", 2.0 + 116.0 * (s / greatest).clamp(0.0, 1.0))).collect();
+    let strokes: String = samples
+        .iter()
+        .take(MAX_SAMPLES)
+        .map(|s| format!("M{:.1} 3V13", 2.0 + 116.0 * (s / greatest).clamp(0.0, 1.0)))
+        .collect();
     let label = format!("{} samples", samples.len());
     Cell::svg(&format!(
         "<svg class=\"strip\" viewBox=\"0 0 120 16\" width=\"120\" height=\"16\" role=\"img\" aria-label=\"{label}\"><path d=\"{strokes}\"/></svg>"
@@ -80,7 +107,17 @@ mod tests {
             { "benchmark": "methods", "method": "elsewhere" }, "junk",
         ]);
         let html = section(&found("train.json", json!({ "command": "bench", "results": rows }))).unwrap();
-        for part in ["7-32-16-1", "8,192", "32.5 M samples", "0.250", "32.1 %", "3 samples", "M48.4 3V13", "&lt;paper&gt;", "900 pairs"] {
+        for part in [
+            "7-32-16-1",
+            "8,192",
+            "32.5 M samples",
+            "0.250",
+            "32.1 %",
+            "3 samples",
+            "M48.4 3V13",
+            "&lt;paper&gt;",
+            "900 pairs",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         assert!(!html.contains("elsewhere") && html.matches("<tr>").count() == 3);

@@ -7,16 +7,19 @@ use super::value::{number as number_of, text, words};
 use serde_json::Value;
 
 /// Most methods that are columns.
-const MOST_COLUMNS: usize = 80;
+const MAX_COLUMNS: usize = 80;
 /// Errors from this on are coloured, faintest at this one and strongest at 1.
-const LEAST_COLORED: f64 = 1e-7;
+const MIN_COLORED: f64 = 1e-7;
 
 /// A result as it is, or the object within it that names a method.
 fn inner(result: &Value) -> &Value {
     if result.get("method").is_some() {
         return result;
     }
-    result.as_object().and_then(|o| o.values().find(|v| v.get("method").is_some())).unwrap_or(result)
+    result
+        .as_object()
+        .and_then(|o| o.values().find(|v| v.get("method").is_some()))
+        .unwrap_or(result)
 }
 
 /// The section; none where no file holds such results.
@@ -42,25 +45,38 @@ fn in_order<'a>(rows: &[&'a Value], key: &str) -> Vec<&'a str> {
 }
 
 fn cases(file: &str, rows: &[&Value]) -> String {
-    let rows: Vec<&Value> = rows.iter().copied().filter(|r| text(r, &["case"]).is_some() && text(r, &["method"]).is_some()).collect();
+    let rows: Vec<&Value> = rows
+        .iter()
+        .copied()
+        .filter(|r| text(r, &["case"]).is_some() && text(r, &["method"]).is_some())
+        .collect();
     if rows.is_empty() {
         return String::new();
     }
     let (cases, methods) = (in_order(&rows, "case"), in_order(&rows, "method"));
-    let shown = &methods[..methods.len().min(MOST_COLUMNS)];
+    let shown = &methods[..methods.len().min(MAX_COLUMNS)];
     let head: Vec<&str> = std::iter::once("case").chain(shown.iter().copied()).collect();
     let mut table = Table::new(&format!("{file}: worst error of T, cases by methods"), &head).upright();
     let mut by_place = std::collections::HashMap::new();
     for row in &rows {
-        by_place.entry((text(row, &["case"]), text(row, &["method"]))).or_insert(*row);
+        by_place
+            .entry((text(row, &["case"]), text(row, &["method"])))
+            .or_insert(*row);
     }
     for case in &cases {
-        let cells = shown.iter().map(|method| by_place.get(&(Some(*case), Some(*method))).map_or(Cell::number(None), |row| cell(row)));
+        let cells = shown.iter().map(|method| {
+            by_place
+                .get(&(Some(*case), Some(*method)))
+                .map_or(Cell::number(None), |row| cell(row))
+        });
         table.row(std::iter::once(Cell::text(case)).chain(cells).collect());
     }
     let mut out = table.html();
     if methods.len() > shown.len() {
-        out += &format!("<p class=\"note\">{} more methods are left out.</p>\n", methods.len() - shown.len());
+        out += &format!(
+            "<p class=\"note\">{} more methods are left out.</p>\n",
+            methods.len() - shown.len()
+        );
     }
     out + "<p class=\"note\">Colour runs with the logarithm of the error, from 1e-7 to 1. <b>✕</b>: answers that are not finite; <b>↕</b>: answers outside [0, 1]. \
         More numbers show on hovering.</p>\n"
@@ -96,10 +112,22 @@ fn cell(row: &Value) -> Cell {
         "order_spread",
     ]
     .iter()
-    .filter_map(|key| Some(format!("{}: {}", words(key), super::html::number(number_of(row, &[key])?))))
+    .filter_map(|key| {
+        Some(format!(
+            "{}: {}",
+            words(key),
+            super::html::number(number_of(row, &[key])?)
+        ))
+    })
     .collect();
-    let share = worst.map_or(0.0, |x| ((x / LEAST_COLORED).max(1.0).log10() / -LEAST_COLORED.log10()).clamp(0.0, 1.0));
-    let style = if share > 0.0 { format!("--heat:{:.0}%", 70.0 * share) } else { String::new() };
+    let share = worst.map_or(0.0, |x| {
+        ((x / MIN_COLORED).max(1.0).log10() / -MIN_COLORED.log10()).clamp(0.0, 1.0)
+    });
+    let style = if share > 0.0 {
+        format!("--heat:{:.0}%", 70.0 * share)
+    } else {
+        String::new()
+    };
     Cell::shown(Some(worst.unwrap_or(f64::NAN)), |_| format!("{number}{marks}"))
         .classed(if bad > 0.0 { "heat bad" } else { "heat" })
         .styled(style)
@@ -107,10 +135,18 @@ fn cell(row: &Value) -> Cell {
 }
 
 fn sweeps(rows: &[&Value]) -> String {
-    let rows: Vec<&Value> = rows.iter().copied().filter(|r| text(r, &["sweep"]).is_some() && number_of(r, &["x"]).is_some()).collect();
+    let rows: Vec<&Value> = rows
+        .iter()
+        .copied()
+        .filter(|r| text(r, &["sweep"]).is_some() && number_of(r, &["x"]).is_some())
+        .collect();
     let mut out = String::new();
     for sweep in in_order(&rows, "sweep") {
-        let of_sweep: Vec<&Value> = rows.iter().copied().filter(|r| text(r, &["sweep"]) == Some(sweep)).collect();
+        let of_sweep: Vec<&Value> = rows
+            .iter()
+            .copied()
+            .filter(|r| text(r, &["sweep"]) == Some(sweep))
+            .collect();
         let methods = in_order(&of_sweep, "method");
         let shown = &methods[..methods.len().min(COLORS)];
         let series = shown.iter().enumerate().map(|(color, method)| {
@@ -119,22 +155,50 @@ fn sweeps(rows: &[&Value]) -> String {
                 .filter(|r| text(r, &["method"]) == Some(method))
                 .filter_map(|r| {
                     let (x, y) = (number_of(r, &["x"])?, number_of(r, &["mse", "worst_error"])?);
-                    Some(Point { x, y, spread: None, title: format!("{method}: {} at {}", super::html::number(y), super::html::number(x)) })
+                    Some(Point {
+                        x,
+                        y,
+                        spread: None,
+                        title: format!("{method}: {} at {}", super::html::number(y), super::html::number(x)),
+                    })
                 })
                 .collect();
             points.sort_by(|a, b| a.x.total_cmp(&b.x));
-            Series { name: (*method).to_owned(), points, mark: Mark::LineAndPoints, color }
+            Series {
+                name: (*method).to_owned(),
+                points,
+                mark: Mark::LineAndPoints,
+                color,
+            }
         });
-        let caption = format!("T-MSE against {}{}", words(sweep), if methods.len() > shown.len() { ", the first methods of the file" } else { "" });
+        let caption = format!(
+            "T-MSE against {}{}",
+            words(sweep),
+            if methods.len() > shown.len() {
+                ", the first methods of the file"
+            } else {
+                ""
+            }
+        );
         let chart = Chart {
             summary: format!("{caption}; {} of {} methods.", shown.len(), methods.len()),
-            x: Axis { label: words(sweep), scale: Scale::Log { decades: 12 } },
-            y: Axis { label: "T-MSE".to_owned(), scale: Scale::Log { decades: 9 } },
+            x: Axis {
+                label: words(sweep),
+                scale: Scale::Log { decades: 12 },
+            },
+            y: Axis {
+                label: "T-MSE".to_owned(),
+                scale: Scale::Log { decades: 9 },
+            },
             series: series.collect(),
         };
         out += &chart::figure(&chart, &caption).unwrap_or_default();
     }
-    if out.is_empty() { out } else { format!("<h3>{}</h3><div class=\"plots\">{out}</div>\n", escape("Sweeps")) }
+    if out.is_empty() {
+        out
+    } else {
+        format!("<h3>{}</h3><div class=\"plots\">{out}</div>\n", escape("Sweeps"))
+    }
 }
 
 #[cfg(test)]
@@ -148,9 +212,23 @@ mod tests {
         let row = |method: &str, case: &str, worst: Value, bad: u64, out: u64| json!({ "kind": "case", "report": { "method": method, "case": case, "worst_error": worst, "nonfinite": bad, "out_of_range": out, "p999_error": 0.5 } });
         let rows = json!([row("a", "single <1>", json!(0.0), 0, 0), row("b", "single <1>", json!(0.25), 3, 1), row("a", "tied", json!(3e-5), 0, 0),
             { "method": "b", "case": "tied", "worst_error": null, "refused": "no \"planes\"" }, { "case": "no method" }, [1]]);
-        let html = section(&found("s/results.json", json!({ "command": "stress", "results": rows }))).unwrap();
-        assert_eq!((html.matches("<tr>").count(), html.matches("scope=\"col\"").count()), (3, 3));
-        for part in ["single &lt;1&gt;", "0.25 ✕ ↕", "3e-5", "no &quot;planes&quot;", "p999 error: 0.500", "--heat:64%"] {
+        let html = section(&found(
+            "s/results.json",
+            json!({ "command": "stress", "results": rows }),
+        ))
+        .unwrap();
+        assert_eq!(
+            (html.matches("<tr>").count(), html.matches("scope=\"col\"").count()),
+            (3, 3)
+        );
+        for part in [
+            "single &lt;1&gt;",
+            "0.25 ✕ ↕",
+            "3e-5",
+            "no &quot;planes&quot;",
+            "p999 error: 0.500",
+            "--heat:64%",
+        ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
         assert!(!html.contains("<svg"));
@@ -159,10 +237,13 @@ mod tests {
 
     #[test]
     fn sweeps_are_drawn() {
-        let point =
-            |method: &str, x: f64, mse: f64| json!({ "kind": "sweep", "point": { "method": method, "sweep": "half_range", "x": x, "mse": mse } });
+        let point = |method: &str, x: f64, mse: f64| json!({ "kind": "sweep", "point": { "method": method, "sweep": "half_range", "x": x, "mse": mse } });
         let rows = json!([point("a", 0.5, 1e-4), point("a", 1e-3, 1e-6), point("b", 0.5, 1e-5), { "sweep": "half_range", "x": "wide" }]);
         let html = section(&found("results.json", json!({ "command": "stress", "results": rows }))).unwrap();
-        assert!(html.matches("<svg class=\"chart\"").count() == 1 && html.contains("T-MSE against half range") && html.contains("2 of 2 methods"));
+        assert!(
+            html.matches("<svg class=\"chart\"").count() == 1
+                && html.contains("T-MSE against half range")
+                && html.contains("2 of 2 methods")
+        );
     }
 }

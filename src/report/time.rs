@@ -38,13 +38,28 @@ fn of(result: &Value) -> Option<Timed> {
     let ms = |keys: &[&str]| number_of(result, keys).map(|s| 1e3 * s);
     let nanoseconds = number_of(
         result,
-        &["nanoseconds_per_fragment_weights", "weights_nanoseconds_per_fragment", "nanoseconds_per_fragment_pass_2", "nanoseconds_per_fragment"],
+        &[
+            "nanoseconds_per_fragment_weights",
+            "weights_nanoseconds_per_fragment",
+            "nanoseconds_per_fragment_pass_2",
+            "nanoseconds_per_fragment",
+        ],
     );
-    let raw = numbers(result, &["raw_seconds_weights", "raw_weights_seconds", "raw_seconds_pass_2", "raw_seconds"]);
-    let ends = raw.iter().fold(None, |ends: Option<(f64, f64)>, &s| Some(ends.map_or((s, s), |(a, b)| (a.min(s), b.max(s)))));
+    let raw = numbers(
+        result,
+        &[
+            "raw_seconds_weights",
+            "raw_weights_seconds",
+            "raw_seconds_pass_2",
+            "raw_seconds",
+        ],
+    );
+    let ends = raw.iter().fold(None, |ends: Option<(f64, f64)>, &s| {
+        Some(ends.map_or((s, s), |(a, b)| (a.min(s), b.max(s))))
+    });
     let fragments = number_of(result, &["fragments"]);
-    let pass_2 =
-        ms(&["seconds_weights", "seconds_pass_2", "seconds_pass2", "seconds"]).or(nanoseconds.zip(fragments).map(|(ns, n)| 1e-6 * ns * n))?;
+    let pass_2 = ms(&["seconds_weights", "seconds_pass_2", "seconds_pass2", "seconds"])
+        .or(nanoseconds.zip(fragments).map(|(ns, n)| 1e-6 * ns * n))?;
     Some(Timed {
         method: text(result, &["method"])?.to_owned(),
         pass_2,
@@ -61,15 +76,27 @@ fn of(result: &Value) -> Option<Timed> {
 fn groups(documents: &[&Document]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for document in documents {
-        let cpu = document.value.get("machine").and_then(|m| text(m, &["cpu"])).unwrap_or("CPU");
+        let cpu = document
+            .value
+            .get("machine")
+            .and_then(|m| text(m, &["cpu"]))
+            .unwrap_or("CPU");
         for result in document.results().iter().filter(|r| is_timed(r)) {
             let Some(timed) = of(result) else { continue };
             let adapter = text(result, &["adapter", "backend"]).unwrap_or(cpu);
             let scene = text(result, &["scene", "fragments_file", "list"]).unwrap_or("");
-            let scene = if documents.len() > 1 { format!("{}{scene}", document.folder()) } else { scene.to_owned() };
+            let scene = if documents.len() > 1 {
+                format!("{}{scene}", document.folder())
+            } else {
+                scene.to_owned()
+            };
             match groups.iter_mut().find(|g| g.adapter == adapter && g.scene == scene) {
                 Some(group) => group.rows.push(timed),
-                None => groups.push(Group { adapter: adapter.to_owned(), scene, rows: vec![timed] }),
+                None => groups.push(Group {
+                    adapter: adapter.to_owned(),
+                    scene,
+                    rows: vec![timed],
+                }),
             }
         }
     }
@@ -78,8 +105,15 @@ fn groups(documents: &[&Document]) -> Vec<Group> {
 
 /// Places of those rows that no other beats in both: faster and no worse, or better and no slower.
 fn front(points: &[(f64, f64)]) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..points.len()).filter(|&i| points[i].0.is_finite() && points[i].1.is_finite()).collect();
-    order.sort_by(|&a, &b| points[a].0.total_cmp(&points[b].0).then(points[a].1.total_cmp(&points[b].1)));
+    let mut order: Vec<usize> = (0..points.len())
+        .filter(|&i| points[i].0.is_finite() && points[i].1.is_finite())
+        .collect();
+    order.sort_by(|&a, &b| {
+        points[a]
+            .0
+            .total_cmp(&points[b].0)
+            .then(points[a].1.total_cmp(&points[b].1))
+    });
     let mut best = f64::INFINITY;
     order.retain(|&i| {
         let better = points[i].1 < best;
@@ -94,7 +128,11 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
     let documents: Vec<&Document> = found.of("bench").filter(|d| d.results().iter().any(is_timed)).collect();
     let measured = groups(&documents);
     let benchmarked = !measured.is_empty();
-    let groups = if benchmarked { measured } else { scenes.iter().map(of_scene).filter(|g| !g.rows.is_empty()).collect() };
+    let groups = if benchmarked {
+        measured
+    } else {
+        scenes.iter().map(of_scene).filter(|g| !g.rows.is_empty()).collect()
+    };
     let mut out = String::new();
     for group in &groups {
         out += &format!("<div>{}</div>\n", group.html());
@@ -132,24 +170,50 @@ fn of_scene(scene: &Scene) -> Group {
             bits: m.bits,
         })
     });
-    Group { adapter: "CPU, reference implementation".to_owned(), scene: scene.label.clone(), rows: rows.collect() }
+    Group {
+        adapter: "CPU, reference implementation".to_owned(),
+        scene: scene.label.clone(),
+        rows: rows.collect(),
+    }
 }
 
 impl Group {
     fn html(&self) -> String {
         let by_image = self.rows.iter().any(|r| r.image_mse.is_some_and(f64::is_finite));
-        let (error, name): (fn(&Timed) -> Option<f64>, &str) = if by_image { (|r| r.image_mse, "image MSE") } else { (|r| r.t_mse, "T-MSE") };
-        let points: Vec<(f64, f64)> = self.rows.iter().map(|r| (r.pass_2, error(r).unwrap_or(f64::NAN))).collect();
+        let (error, name): (fn(&Timed) -> Option<f64>, &str) = if by_image {
+            (|r| r.image_mse, "image MSE")
+        } else {
+            (|r| r.t_mse, "T-MSE")
+        };
+        let points: Vec<(f64, f64)> = self
+            .rows
+            .iter()
+            .map(|r| (r.pass_2, error(r).unwrap_or(f64::NAN)))
+            .collect();
         let front = front(&points);
-        let place = if self.scene.is_empty() { self.adapter.clone() } else { format!("{}, {}", self.scene, self.adapter) };
+        let place = if self.scene.is_empty() {
+            self.adapter.clone()
+        } else {
+            format!("{}, {}", self.scene, self.adapter)
+        };
         let caption = format!("{place}: time of pass 2 against {name}");
 
         let point = |i: usize| {
             let r = &self.rows[i];
             let title = format!("{}: {} ms, {name} {}", r.method, number(r.pass_2), number(points[i].1));
-            Point { x: points[i].0, y: points[i].1, spread: r.spread, title }
+            Point {
+                x: points[i].0,
+                y: points[i].1,
+                spread: r.spread,
+                title,
+            }
         };
-        let joined = Series { name: "Pareto front".to_owned(), points: front.iter().map(|&i| point(i)).collect(), mark: Mark::Joined, color: 6 };
+        let joined = Series {
+            name: "Pareto front".to_owned(),
+            points: front.iter().map(|&i| point(i)).collect(),
+            mark: Mark::Joined,
+            color: 6,
+        };
         let mut series = vec![joined];
         let neural = |i: usize| self.rows[i].method.starts_with("neural:");
         // Names find room in this order.
@@ -157,18 +221,49 @@ impl Group {
         order.sort_by_key(|i| (!neural(*i), !front.contains(i)));
         for i in order {
             let mark = if front.contains(&i) { Mark::Filled } else { Mark::Hollow };
-            series.push(Series { name: self.rows[i].method.clone(), points: vec![point(i)], mark, color: usize::from(neural(i)) });
+            series.push(Series {
+                name: self.rows[i].method.clone(),
+                points: vec![point(i)],
+                mark,
+                color: usize::from(neural(i)),
+            });
         }
         let chart = Chart {
-            summary: format!("{caption}, {} methods; on the Pareto front: {}.", self.rows.len(), self.names(&front)),
-            x: Axis { label: "time of pass 2 [ms]".to_owned(), scale: Scale::Log { decades: 9 } },
-            y: Axis { label: name.to_owned(), scale: Scale::Log { decades: 8 } },
+            summary: format!(
+                "{caption}, {} methods; on the Pareto front: {}.",
+                self.rows.len(),
+                self.names(&front)
+            ),
+            x: Axis {
+                label: "time of pass 2 [ms]".to_owned(),
+                scale: Scale::Log { decades: 9 },
+            },
+            y: Axis {
+                label: name.to_owned(),
+                scale: Scale::Log { decades: 8 },
+            },
             series,
         };
-        let head = ["method", "pass 2 ms", "ns/fragment", "pass 1 ms", "bits/pixel", "image MSE", "FLIP", "T-MSE", "Pareto front"];
+        let head = [
+            "method",
+            "pass 2 ms",
+            "ns/fragment",
+            "pass 1 ms",
+            "bits/pixel",
+            "image MSE",
+            "FLIP",
+            "T-MSE",
+            "Pareto front",
+        ];
         let mut table = Table::new(&format!("{place}: numbers"), &head);
         for (i, r) in self.rows.iter().enumerate() {
-            let bits = |b: f64| if b >= f64::from(u32::MAX) { "unbounded".to_owned() } else { number(b) };
+            let bits = |b: f64| {
+                if b >= f64::from(u32::MAX) {
+                    "unbounded".to_owned()
+                } else {
+                    number(b)
+                }
+            };
             table.row(vec![
                 Cell::text(&r.method),
                 Cell::number(Some(r.pass_2)),
@@ -181,11 +276,15 @@ impl Group {
                 Cell::text(if front.contains(&i) { "yes" } else { "" }),
             ]);
         }
-        chart::figure(&chart, &caption).unwrap_or_default() + &super::html::details(&format!("{place}: numbers"), &table.html())
+        chart::figure(&chart, &caption).unwrap_or_default()
+            + &super::html::details(&format!("{place}: numbers"), &table.html())
     }
 
     fn names(&self, rows: &[usize]) -> String {
-        rows.iter().map(|&i| self.rows[i].method.as_str()).collect::<Vec<_>>().join(", ")
+        rows.iter()
+            .map(|&i| self.rows[i].method.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
     }
 }
 
@@ -197,7 +296,16 @@ mod tests {
 
     #[test]
     fn the_front_is_what_nothing_beats() {
-        let points = [(1.0, 5.0), (2.0, 3.0), (2.0, 4.0), (3.0, 3.0), (4.0, 1.0), (5.0, 1.0), (0.5, f64::NAN), (f64::NAN, 0.0)];
+        let points = [
+            (1.0, 5.0),
+            (2.0, 3.0),
+            (2.0, 4.0),
+            (3.0, 3.0),
+            (4.0, 1.0),
+            (5.0, 1.0),
+            (0.5, f64::NAN),
+            (f64::NAN, 0.0),
+        ];
         assert_eq!(front(&points), [0, 1, 4]);
         assert!(front(&[]).is_empty());
         // Control: a point that is slower and worse is never on it.
@@ -215,9 +323,15 @@ mod tests {
         let found = found("b/results.json", json!({ "command": "bench", "results": rows }));
         let (html, benchmarked) = section(&found, &[]);
         let html = html.unwrap();
-        assert!(benchmarked && html.matches("<svg class=\"chart\"").count() == 2, "{html}");
+        assert!(
+            benchmarked && html.matches("<svg class=\"chart\"").count() == 2,
+            "{html}"
+        );
         assert!(html.contains("hair, gpu &lt;0&gt;: time of pass 2 against image MSE"));
-        assert!(html.contains("on the Pareto front: neural:small.") && html.contains("neural:small: 1 ms, image MSE 1.00e-5"));
+        assert!(
+            html.contains("on the Pareto front: neural:small.")
+                && html.contains("neural:small: 1 ms, image MSE 1.00e-5")
+        );
         // 1 ms for 1000 fragments are 1000 ns each.
         assert!(html.contains(">1,000<"));
     }

@@ -57,13 +57,38 @@ mod tests {
 
     #[test]
     fn whatever_the_types() {
-        let value = json!({ "a": 1, "b": "x", "c": null, "d": [1, "y", null, 2.5], "e": { "a": 2 }, "f": -3, "g": u64::MAX });
-        assert_eq!((number(&value, &["b", "a"]), number(&value, &["c"]), number(&value, &["z"])), (Some(1.0), None, None));
+        let value =
+            json!({ "a": 1, "b": "x", "c": null, "d": [1, "y", null, 2.5], "e": { "a": 2 }, "f": -3, "g": u64::MAX });
+        assert_eq!(
+            (
+                number(&value, &["b", "a"]),
+                number(&value, &["c"]),
+                number(&value, &["z"])
+            ),
+            (Some(1.0), None, None)
+        );
         assert_eq!((text(&value, &["a", "b"]), text(&value, &["d"])), (Some("x"), None));
-        assert_eq!((list(&value, "d").len(), list(&value, "e").len(), numbers(&value, &["a", "d"])), (4, 0, vec![1.0, 2.5]));
+        assert_eq!(
+            (
+                list(&value, "d").len(),
+                list(&value, "e").len(),
+                numbers(&value, &["a", "d"])
+            ),
+            (4, 0, vec![1.0, 2.5])
+        );
         assert!(number_or_nan(&value, "c", true).unwrap().is_nan());
-        assert_eq!((number_or_nan(&value, "c", false), number_or_nan(&value, "a", true), number_or_nan(&value, "z", true)), (None, Some(1.0), None));
-        assert_eq!(["a", "b", "c", "f", "g"].map(|k| scalar(&value[k]).unwrap()), ["1", "x", "–", "-3", "18446744073709551615"]);
+        assert_eq!(
+            (
+                number_or_nan(&value, "c", false),
+                number_or_nan(&value, "a", true),
+                number_or_nan(&value, "z", true)
+            ),
+            (None, Some(1.0), None)
+        );
+        assert_eq!(
+            ["a", "b", "c", "f", "g"].map(|k| scalar(&value[k]).unwrap()),
+            ["1", "x", "–", "-3", "18446744073709551615"]
+        );
         assert!(scalar(&value["d"]).is_none());
         // Not an object at all.
         assert_eq!((number(&json!([1]), &["a"]), list(&json!("x"), "a").len()), (None, 0));

@@ -26,7 +26,9 @@ pub struct ReadOptions {
 impl Default for ReadOptions {
     /// Four slices.
     fn default() -> Self {
-        Self { volume_slices: NonZeroU32::new(4) }
+        Self {
+            volume_slices: NonZeroU32::new(4),
+        }
     }
 }
 
@@ -36,9 +38,9 @@ const TILED: u32 = 0x200;
 const DEEP: u32 = 0x800;
 const MULTI_PART: u32 = 0x1000;
 /// Most bytes that one compressed byte may stand for: deflate's bound is 1032, run lengths reach 64.
-const MOST_EXPANSION: u64 = 1032;
+const MAX_EXPANSION: u64 = 1032;
 /// Most columns or rows of an image.
-const MOST_SIDE: i64 = 1 << 20;
+const MAX_SIDE: i64 = 1 << 20;
 
 /// Number type of a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,9 +111,15 @@ impl<'a> Bytes<'a> {
     }
 
     fn take(&mut self, n: u64, what: &str) -> Result<&'a [u8], SceneError> {
-        let end = usize::try_from(n).ok().and_then(|n| self.at.checked_add(n)).filter(|&end| end <= self.data.len());
+        let end = usize::try_from(n)
+            .ok()
+            .and_then(|n| self.at.checked_add(n))
+            .filter(|&end| end <= self.data.len());
         let Some(end) = end else {
-            return Err(self.wrong(&format!("byte {}", self.at), format!("the file ends within {what}; it is truncated or damaged")));
+            return Err(self.wrong(
+                &format!("byte {}", self.at),
+                format!("the file ends within {what}; it is truncated or damaged"),
+            ));
         };
         let out = &self.data[self.at..end];
         self.at = end;
@@ -139,7 +147,10 @@ impl<'a> Bytes<'a> {
                 self.at += n + 1;
                 Ok(String::from_utf8_lossy(&rest[..n]).into_owned())
             }
-            None => Err(self.wrong(&format!("byte {}", self.at), format!("{what} does not end; the file is truncated or damaged"))),
+            None => Err(self.wrong(
+                &format!("byte {}", self.at),
+                format!("{what} does not end; the file is truncated or damaged"),
+            )),
         }
     }
 }
@@ -156,14 +167,23 @@ fn header(bytes: &mut Bytes<'_>) -> Result<Option<Header>, SceneError> {
         let size = bytes.u32("an attribute's size")?;
         let at = bytes.at;
         let data = bytes.take(size.into(), &format!("attribute '{name}'"))?;
-        let mut value = Bytes { path: bytes.path, data: &bytes.data[..at + data.len()], at };
+        let mut value = Bytes {
+            path: bytes.path,
+            data: &bytes.data[..at + data.len()],
+            at,
+        };
         let what = format!("attribute '{name}'");
         match (name.as_str(), kind.as_str()) {
             ("type", "string") => header.kind = Some(String::from_utf8_lossy(data).into_owned()),
             ("channels", "chlist") => header.channels = Some(channels(&mut value)?),
             ("compression", "compression") => header.compression = Some(value.take(1, &what)?[0]),
             ("dataWindow", "box2i") => {
-                header.data_window = Some([value.i32(&what)?, value.i32(&what)?, value.i32(&what)?, value.i32(&what)?]);
+                header.data_window = Some([
+                    value.i32(&what)?,
+                    value.i32(&what)?,
+                    value.i32(&what)?,
+                    value.i32(&what)?,
+                ]);
             }
             ("tiles", "tiledesc") => {
                 header.tiles = Some([value.u32(&what)?, value.u32(&what)?]);
@@ -173,7 +193,10 @@ fn header(bytes: &mut Bytes<'_>) -> Result<Option<Header>, SceneError> {
             ("near", "float") => header.near = Some(f32::from_bits(value.u32(&what)?)),
             ("far", "float") => header.far = Some(f32::from_bits(value.u32(&what)?)),
             ("type" | "channels" | "compression" | "dataWindow" | "tiles" | "chunkCount", other) => {
-                return Err(bytes.wrong(&format!("attribute '{name}' at byte {at}"), format!("it has the type '{other}', which is not its own")));
+                return Err(bytes.wrong(
+                    &format!("attribute '{name}' at byte {at}"),
+                    format!("it has the type '{other}', which is not its own"),
+                ));
             }
             _ => {}
         }
@@ -193,12 +216,20 @@ fn channels(value: &mut Bytes<'_>) -> Result<Vec<(String, Kind)>, SceneError> {
             0 => Kind::Uint,
             1 => Kind::Half,
             2 => Kind::Float,
-            other => return Err(value.wrong(&place, format!("number type {other}; 0 (uint), 1 (half) or 2 (float) is expected"))),
+            other => {
+                return Err(value.wrong(
+                    &place,
+                    format!("number type {other}; 0 (uint), 1 (half) or 2 (float) is expected"),
+                ));
+            }
         };
         value.take(4, &place)?;
         let sampling = [value.u32(&place)?, value.u32(&place)?];
         if sampling != [1, 1] {
-            return Err(value.wrong(&place, format!("sampling {sampling:?}; deep channels have a value for every pixel, [1, 1]")));
+            return Err(value.wrong(
+                &place,
+                format!("sampling {sampling:?}; deep channels have a value for every pixel, [1, 1]"),
+            ));
         }
         if out.iter().any(|(n, _)| *n == name) {
             return Err(value.wrong(&place, "it is there twice"));
@@ -265,7 +296,13 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
     }
     let version = bytes.u32("the version")?;
     if version & 0xff != 2 {
-        return Err(bytes.wrong("byte 4", format!("version {} of the format; 2 is the one that is supported", version & 0xff)));
+        return Err(bytes.wrong(
+            "byte 4",
+            format!(
+                "version {} of the format; 2 is the one that is supported",
+                version & 0xff
+            ),
+        ));
     }
     let multi_part = version & MULTI_PART != 0;
     let mut headers = Vec::new();
@@ -280,21 +317,38 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
         None => version & DEEP != 0,
     };
     let Some(part) = headers.iter().position(deep) else {
-        return Err(bytes.wrong("header", "this image is flat; a deep image (type deepscanline or deeptile) is needed"));
+        return Err(bytes.wrong(
+            "header",
+            "this image is flat; a deep image (type deepscanline or deeptile) is needed",
+        ));
     };
     // The chunk tables of all parts follow one another.
     for (i, header) in headers[..part].iter().enumerate() {
         let Some(count) = header.chunk_count else {
-            return Err(bytes.wrong(&format!("header of part {i}"), "there is no chunkCount, which multi-part files need"));
+            return Err(bytes.wrong(
+                &format!("header of part {i}"),
+                "there is no chunkCount, which multi-part files need",
+            ));
         };
         bytes.take(count.saturating_mul(8), &format!("the chunk table of part {i}"))?;
     }
     let header = &headers[part];
-    let missing = |what: &str| bytes.wrong(&format!("header of part {part}"), format!("there is no attribute '{what}'"));
+    let missing = |what: &str| {
+        bytes.wrong(
+            &format!("header of part {part}"),
+            format!("there is no attribute '{what}'"),
+        )
+    };
     let [x_min, y_min, x_max, y_max] = header.data_window.ok_or_else(|| missing("dataWindow"))?;
-    let (width, height) = (i64::from(x_max) - i64::from(x_min) + 1, i64::from(y_max) - i64::from(y_min) + 1);
-    if !(1..=MOST_SIDE).contains(&width) || !(1..=MOST_SIDE).contains(&height) {
-        return Err(bytes.wrong("dataWindow", format!("{width} x {height} pixels; 1 to {MOST_SIDE} a side are supported")));
+    let (width, height) = (
+        i64::from(x_max) - i64::from(x_min) + 1,
+        i64::from(y_max) - i64::from(y_min) + 1,
+    );
+    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+        return Err(bytes.wrong(
+            "dataWindow",
+            format!("{width} x {height} pixels; 1 to {MAX_SIDE} a side are supported"),
+        ));
     }
     let (width, height) = (width as usize, height as usize);
     let (packing, lines) = match header.compression.ok_or_else(|| missing("compression"))? {
@@ -303,14 +357,24 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
         2 => (Packing::Zip, 1),
         3 => (Packing::Zip, 16),
         other => {
-            return Err(bytes.wrong("compression", format!("method {other}; deep images have none (0), RLE (1), ZIPS (2) or ZIP (3)")));
+            return Err(bytes.wrong(
+                "compression",
+                format!("method {other}; deep images have none (0), RLE (1), ZIPS (2) or ZIP (3)"),
+            ));
         }
     };
     let channels = header.channels.as_ref().ok_or_else(|| missing("channels"))?;
     let used = used_channels(&bytes, channels)?;
     let kinds: Vec<Kind> = channels.iter().map(|c| c.1).collect();
     let bytes_a_sample = kinds.iter().map(|k| k.bytes() as u64).sum();
-    let layout = Layout { path, packing, kinds, used, slices: options.volume_slices, bytes_a_sample };
+    let layout = Layout {
+        path,
+        packing,
+        kinds,
+        used,
+        slices: options.volume_slices,
+        bytes_a_sample,
+    };
 
     let tiled = match header.kind.as_deref() {
         Some(kind) => kind.starts_with("deeptile"),
@@ -319,7 +383,10 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
     let block = if tiled {
         let [w, h] = header.tiles.ok_or_else(|| missing("tiles"))?;
         if w == 0 || h == 0 || header.levels > 2 {
-            return Err(bytes.wrong("tiles", format!("tiles of {w} x {h} pixels, level mode {}", header.levels)));
+            return Err(bytes.wrong(
+                "tiles",
+                format!("tiles of {w} x {h} pixels, level mode {}", header.levels),
+            ));
         }
         [w as usize, h as usize]
     } else {
@@ -334,31 +401,55 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
         return Err(bytes.wrong("chunkCount", format!("{count}; the data window needs {blocks}")));
     }
     let table_at = bytes.at;
-    let mut table = Bytes { path, data, at: table_at };
+    let mut table = Bytes {
+        path,
+        data,
+        at: table_at,
+    };
     table.take(blocks as u64 * 8, "the chunk table")?;
     table.at = table_at;
     let mut chunks = Vec::with_capacity(blocks);
     for k in 0..blocks {
-        let place = if tiled { format!("tile ({}, {})", k % columns, k / columns) } else { format!("scanline block {k}") };
+        let place = if tiled {
+            format!("tile ({}, {})", k % columns, k / columns)
+        } else {
+            format!("scanline block {k}")
+        };
         let offset = table.u64("the chunk table")?;
         if offset == 0 {
-            return Err(bytes.wrong(&place, "its chunk table entry is 0; the file was not written to its end"));
+            return Err(bytes.wrong(
+                &place,
+                "its chunk table entry is 0; the file was not written to its end",
+            ));
         }
-        let mut at = Bytes { path, data, at: usize::try_from(offset).unwrap_or(usize::MAX).min(data.len()) };
+        let mut at = Bytes {
+            path,
+            data,
+            at: usize::try_from(offset).unwrap_or(usize::MAX).min(data.len()),
+        };
         if multi_part {
             let found = at.u32(&place)?;
             if found as usize != part {
-                return Err(bytes.wrong(&place, format!("its chunk belongs to part {found}, not {part}; the chunk table is damaged")));
+                return Err(bytes.wrong(
+                    &place,
+                    format!("its chunk belongs to part {found}, not {part}; the chunk table is damaged"),
+                ));
             }
         }
         let (x, y) = (k % columns * block[0], k / columns * block[1]);
         let (expected, found) = if tiled {
-            (vec![(k % columns) as i64, (k / columns) as i64, 0, 0], (0..4).map(|_| at.i32(&place)).collect::<Result<Vec<_>, _>>()?)
+            (
+                vec![(k % columns) as i64, (k / columns) as i64, 0, 0],
+                (0..4).map(|_| at.i32(&place)).collect::<Result<Vec<_>, _>>()?,
+            )
         } else {
             (vec![i64::from(y_min) + y as i64], vec![at.i32(&place)?])
         };
         if found.iter().map(|&v| i64::from(v)).ne(expected.iter().copied()) {
-            return Err(bytes.wrong(&place, format!("its chunk says {found:?} where {expected:?} is expected; the chunk table is damaged")));
+            return Err(bytes.wrong(
+                &place,
+                format!("its chunk says {found:?} where {expected:?} is expected; the chunk table is damaged"),
+            ));
         }
         let (table_bytes, sample_bytes, unpacked) = (at.u64(&place)?, at.u64(&place)?, at.u64(&place)?);
         let table = at.take(table_bytes, &format!("the sample counts of {place}"))?;
@@ -366,15 +457,38 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
         let (w, h) = (block[0].min(width - x), block[1].min(height - y));
         // Counts that would not shrink are stored as they are, and for a tile that is cut off in the size of a whole one.
         let whole = block[0] * block[1] * 4;
-        let table = if tiled && table.len() == whole { &table[..w * h * 4] } else { table };
-        if (w * h * 4) as u64 > table_bytes.saturating_mul(MOST_EXPANSION) {
-            return Err(bytes.wrong(&place, format!("{table_bytes} bytes cannot hold the sample counts of {w} x {h} pixels")));
+        let table = if tiled && table.len() == whole {
+            &table[..w * h * 4]
+        } else {
+            table
+        };
+        if (w * h * 4) as u64 > table_bytes.saturating_mul(MAX_EXPANSION) {
+            return Err(bytes.wrong(
+                &place,
+                format!("{table_bytes} bytes cannot hold the sample counts of {w} x {h} pixels"),
+            ));
         }
-        chunks.push(Chunk { place, x, y, width: w, height: h, table, samples, unpacked });
+        chunks.push(Chunk {
+            place,
+            x,
+            y,
+            width: w,
+            height: h,
+            table,
+            samples,
+            unpacked,
+        });
     }
-    let decoded: Vec<Decoded> = chunks.par_iter().map(|chunk| layout.block(chunk)).collect::<Result<_, _>>()?;
-    let list = assemble(&chunks, decoded, width, height, layout.used.color.is_some())
-        .map_err(|source| SceneError::Content { path: path.to_owned(), source })?;
+    let decoded: Vec<Decoded> = chunks
+        .par_iter()
+        .map(|chunk| layout.block(chunk))
+        .collect::<Result<_, _>>()?;
+    let list = assemble(&chunks, decoded, width, height, layout.used.color.is_some()).map_err(|source| {
+        SceneError::Content {
+            path: path.to_owned(),
+            source,
+        }
+    })?;
     Ok(match (header.near, header.far) {
         (Some(near), Some(far)) => CameraPlanes::new(near, far).map_or(list.clone(), |planes| list.with_planes(planes)),
         _ => list,
@@ -385,14 +499,29 @@ fn used_channels(bytes: &Bytes<'_>, channels: &[(String, Kind)]) -> Result<Used,
     let place = |name: &str| channels.iter().position(|(n, _)| n == name);
     let names = || channels.iter().map(|c| c.0.as_str()).collect::<Vec<_>>().join(", ");
     let needed = |name: &str, what: &str| {
-        place(name).ok_or_else(|| bytes.wrong("channels", format!("there is no channel {name} ({what}); the file has {}", names())))
+        place(name).ok_or_else(|| {
+            bytes.wrong(
+                "channels",
+                format!("there is no channel {name} ({what}); the file has {}", names()),
+            )
+        })
     };
     let color = match [place("R"), place("G"), place("B")] {
         [Some(r), Some(g), Some(b)] => Some([r, g, b]),
         [None, None, None] => None,
-        _ => return Err(bytes.wrong("channels", format!("colour needs R, G and B, or none of them; the file has {}", names()))),
+        _ => {
+            return Err(bytes.wrong(
+                "channels",
+                format!("colour needs R, G and B, or none of them; the file has {}", names()),
+            ));
+        }
     };
-    Ok(Used { z: needed("Z", "depth")?, alpha: needed("A", "alpha")?, color, z_back: place("ZBack") })
+    Ok(Used {
+        z: needed("Z", "depth")?,
+        alpha: needed("A", "alpha")?,
+        color,
+        z_back: place("ZBack"),
+    })
 }
 
 impl Layout<'_> {
@@ -405,15 +534,28 @@ impl Layout<'_> {
         if packed.len() as u64 == size {
             return Ok(packed.to_vec());
         }
-        let most = if self.packing == Packing::None { 0 } else { (packed.len() as u64).saturating_mul(MOST_EXPANSION) };
+        let most = if self.packing == Packing::None {
+            0
+        } else {
+            (packed.len() as u64).saturating_mul(MAX_EXPANSION)
+        };
         if (packed.len() as u64) > size || size > most {
-            return Err(self.wrong(place, format!("{} bytes cannot hold the {size} that are declared; the file is damaged", packed.len())));
+            return Err(self.wrong(
+                place,
+                format!(
+                    "{} bytes cannot hold the {size} that are declared; the file is damaged",
+                    packed.len()
+                ),
+            ));
         }
         let mut out = vec![0u8; size as usize];
         let whole = match self.packing {
             Packing::Zip => {
                 let mut inflate = Decompress::new(true);
-                inflate.decompress(packed, &mut out, FlushDecompress::Finish).is_ok_and(|s| s == Status::StreamEnd) && inflate.total_out() == size
+                inflate
+                    .decompress(packed, &mut out, FlushDecompress::Finish)
+                    .is_ok_and(|s| s == Status::StreamEnd)
+                    && inflate.total_out() == size
             }
             _ => unpack_runs(packed, &mut out),
         };
@@ -425,12 +567,18 @@ impl Layout<'_> {
             out[i] = out[i].wrapping_add(out[i - 1]).wrapping_sub(128);
         }
         let (even, odd) = out.split_at(out.len().div_ceil(2));
-        Ok((0..out.len()).map(|i| if i % 2 == 0 { even[i / 2] } else { odd[i / 2] }).collect())
+        Ok((0..out.len())
+            .map(|i| if i % 2 == 0 { even[i / 2] } else { odd[i / 2] })
+            .collect())
     }
 
     fn block(&self, chunk: &Chunk<'_>) -> Result<Decoded, SceneError> {
         let pixels = chunk.width * chunk.height;
-        let table = self.unpack(&format!("{}, sample counts", chunk.place), chunk.table, pixels as u64 * 4)?;
+        let table = self.unpack(
+            &format!("{}, sample counts", chunk.place),
+            chunk.table,
+            pixels as u64 * 4,
+        )?;
         // Counts are running sums along each row.
         let mut counts = Vec::with_capacity(pixels);
         let mut total = 0u64;
@@ -440,7 +588,10 @@ impl Layout<'_> {
                 let sum = u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
                 if sum < before || sum > i32::MAX as u32 {
                     let place = format!("{}, pixel ({}, {})", chunk.place, chunk.x + column, chunk.y + row);
-                    return Err(self.wrong(&place, format!("the running sum of samples goes from {before} to {sum}; the file is damaged")));
+                    return Err(self.wrong(
+                        &place,
+                        format!("the running sum of samples goes from {before} to {sum}; the file is damaged"),
+                    ));
                 }
                 counts.push(sum - before);
                 before = sum;
@@ -448,13 +599,20 @@ impl Layout<'_> {
             total += u64::from(before);
         }
         if total.checked_mul(self.bytes_a_sample) != Some(chunk.unpacked) {
-            let reason =
-                format!("{total} samples of {} bytes are counted, but {} bytes declared; the file is damaged", self.bytes_a_sample, chunk.unpacked);
+            let reason = format!(
+                "{total} samples of {} bytes are counted, but {} bytes declared; the file is damaged",
+                self.bytes_a_sample, chunk.unpacked
+            );
             return Err(self.wrong(&chunk.place, reason));
         }
         let data = self.unpack(&format!("{}, samples", chunk.place), chunk.samples, chunk.unpacked)?;
         let n = total as usize;
-        let mut out = Decoded { counts: Vec::with_capacity(pixels), view_z: Vec::with_capacity(n), alpha: Vec::with_capacity(n), color: Vec::new() };
+        let mut out = Decoded {
+            counts: Vec::with_capacity(pixels),
+            view_z: Vec::with_capacity(n),
+            alpha: Vec::with_capacity(n),
+            color: Vec::new(),
+        };
         if self.used.color.is_some() {
             out.color.reserve(n);
         }
@@ -467,13 +625,21 @@ impl Layout<'_> {
                 starts.push(line_at);
                 line_at += samples * kind.bytes();
             }
-            let value = |channel: usize, i: usize| self.kinds[channel].value(&data[starts[channel] + i * self.kinds[channel].bytes()..]);
+            let value = |channel: usize, i: usize| {
+                self.kinds[channel].value(&data[starts[channel] + i * self.kinds[channel].bytes()..])
+            };
             let mut i = 0;
             for (column, &count) in counts.iter().enumerate() {
                 let before = out.view_z.len();
                 for _ in 0..count {
                     self.sample(&value, i, &mut out).map_err(|reason| {
-                        let place = format!("{}, pixel ({}, {}), sample {}", chunk.place, chunk.x + column, chunk.y + row, out.view_z.len() - before);
+                        let place = format!(
+                            "{}, pixel ({}, {}), sample {}",
+                            chunk.place,
+                            chunk.x + column,
+                            chunk.y + row,
+                            out.view_z.len() - before
+                        );
                         self.wrong(&place, reason)
                     })?;
                     i += 1;
@@ -501,7 +667,11 @@ impl Layout<'_> {
                 if premultiplied.is_nan() {
                     return Err("its colour is not a number".to_owned());
                 }
-                *c = if alpha > 0.0 { (premultiplied / alpha).clamp(0.0, 1.0) } else { 0.0 };
+                *c = if alpha > 0.0 {
+                    (premultiplied / alpha).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
             }
         }
         let back = self.used.z_back.map_or(z, |place| value(place, i));
@@ -511,13 +681,25 @@ impl Layout<'_> {
         let slices = match self.slices {
             _ if back <= z => 1,
             Some(slices) => slices.get(),
-            None => return Err(format!("it is a volume, from Z = {z} to ZBack = {back}; allow slices to read it")),
+            None => {
+                return Err(format!(
+                    "it is a volume, from Z = {z} to ZBack = {back}; allow slices to read it"
+                ));
+            }
         };
         // (1 − a_slice)^slices = 1 − a
-        let thin = if slices == 1 { alpha } else { -libm::expm1(libm::log1p(-f64::from(alpha)) / f64::from(slices)) as f32 };
+        let thin = if slices == 1 {
+            alpha
+        } else {
+            -libm::expm1(libm::log1p(-f64::from(alpha)) / f64::from(slices)) as f32
+        };
         for s in 0..slices {
             let share = (f64::from(s) + 0.5) / f64::from(slices);
-            let depth = if slices == 1 { z } else { (f64::from(z) + share * (f64::from(back) - f64::from(z))) as f32 };
+            let depth = if slices == 1 {
+                z
+            } else {
+                (f64::from(z) + share * (f64::from(back) - f64::from(z))) as f32
+            };
             out.view_z.push(depth);
             out.alpha.push(thin);
             if self.used.color.is_some() {
@@ -533,14 +715,24 @@ fn unpack_runs(mut packed: &[u8], out: &mut [u8]) -> bool {
     let mut at = 0;
     while let Some((&n, rest)) = packed.split_first() {
         let n = n as i8;
-        let length = if n < 0 { usize::from(n.unsigned_abs()) } else { n as usize + 1 };
-        let Some(target) = out.get_mut(at..at + length) else { return false };
+        let length = if n < 0 {
+            usize::from(n.unsigned_abs())
+        } else {
+            n as usize + 1
+        };
+        let Some(target) = out.get_mut(at..at + length) else {
+            return false;
+        };
         if n < 0 {
-            let Some((copied, rest)) = rest.split_at_checked(length) else { return false };
+            let Some((copied, rest)) = rest.split_at_checked(length) else {
+                return false;
+            };
             target.copy_from_slice(copied);
             packed = rest;
         } else {
-            let Some((&value, rest)) = rest.split_first() else { return false };
+            let Some((&value, rest)) = rest.split_first() else {
+                return false;
+            };
             target.fill(value);
             packed = rest;
         }
@@ -570,7 +762,11 @@ fn assemble(
         offsets[p] += offsets[p - 1];
     }
     let total = offsets[width * height] as usize;
-    let (mut view_z, mut alpha, mut color) = (vec![0.0; total], vec![0.0; total], vec![[0.0; 3]; if colored { total } else { 0 }]);
+    let (mut view_z, mut alpha, mut color) = (
+        vec![0.0; total],
+        vec![0.0; total],
+        vec![[0.0; 3]; if colored { total } else { 0 }],
+    );
     for (chunk, block) in chunks.iter().zip(decoded) {
         let mut from = 0;
         for (row, counts) in block.counts.chunks_exact(chunk.width).enumerate() {
@@ -600,8 +796,8 @@ pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), S
         Some((w, h)) => (w as usize, h as usize),
         None => (pixels, 1),
     };
-    if pixels == 0 || width as i64 > MOST_SIDE || height as i64 > MOST_SIDE {
-        let reason = format!("an image of {width} x {height} pixels; a deep image has 1 to {MOST_SIDE} a side");
+    if pixels == 0 || width as i64 > MAX_SIDE || height as i64 > MAX_SIDE {
+        let reason = format!("an image of {width} x {height} pixels; a deep image has 1 to {MAX_SIDE} a side");
         return Err(SceneError::file_content(path, "dataWindow", reason));
     }
     let mut out = Vec::new();
@@ -615,7 +811,11 @@ pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), S
         out.extend((value.len() as u32).to_le_bytes());
         out.extend(value);
     };
-    let names: &[&str] = if list.color().is_some() { &["A", "B", "G", "R", "Z"] } else { &["A", "Z"] };
+    let names: &[&str] = if list.color().is_some() {
+        &["A", "B", "G", "R", "Z"]
+    } else {
+        &["A", "Z"]
+    };
     let mut channels = Vec::new();
     for name in names {
         channels.extend(name.as_bytes());
@@ -624,8 +824,15 @@ pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), S
         channels.extend([2u32, 0, 1, 1].iter().flat_map(|v| v.to_le_bytes()));
     }
     channels.push(0);
-    let window: Vec<u8> = [0, 0, width as i32 - 1, height as i32 - 1].iter().flat_map(|v| v.to_le_bytes()).collect();
-    let deepest = (0..pixels).map(|p| list.range(p).len()).max().unwrap_or(0).min(i32::MAX as usize) as i32;
+    let window: Vec<u8> = [0, 0, width as i32 - 1, height as i32 - 1]
+        .iter()
+        .flat_map(|v| v.to_le_bytes())
+        .collect();
+    let deepest = (0..pixels)
+        .map(|p| list.range(p).len())
+        .max()
+        .unwrap_or(0)
+        .min(i32::MAX as usize) as i32;
     attribute("channels", "chlist", &channels);
     attribute("chunkCount", "int", &(height as i32).to_le_bytes());
     attribute("compression", "compression", &[2]);
@@ -661,13 +868,20 @@ pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), S
 fn scanline(list: &FragmentList, width: usize, y: usize) -> Vec<u8> {
     let range = list.range(y * width).start..list.range(y * width + width - 1).end;
     let first = range.start;
-    let table: Vec<u8> = (0..width).flat_map(|x| ((list.range(y * width + x).end - first) as u32).to_le_bytes()).collect();
+    let table: Vec<u8> = (0..width)
+        .flat_map(|x| ((list.range(y * width + x).end - first) as u32).to_le_bytes())
+        .collect();
     let alpha = &list.alpha()[range.clone()];
     let mut samples: Vec<u8> = Vec::with_capacity(range.len() * 20);
     samples.extend(alpha.iter().flat_map(|a| a.to_le_bytes()));
     if let Some(color) = list.color() {
         for channel in [2, 1, 0] {
-            samples.extend(color[range.clone()].iter().zip(alpha).flat_map(|(c, a)| (c[channel] * a).to_le_bytes()));
+            samples.extend(
+                color[range.clone()]
+                    .iter()
+                    .zip(alpha)
+                    .flat_map(|(c, a)| (c[channel] * a).to_le_bytes()),
+            );
         }
     }
     samples.extend(list.view_z()[range].iter().flat_map(|z| z.to_le_bytes()));
@@ -684,7 +898,12 @@ fn scanline(list: &FragmentList, width: usize, y: usize) -> Vec<u8> {
 
 /// The ZIPS form of data; the data itself where that is not shorter.
 fn pack(data: &[u8]) -> Vec<u8> {
-    let mut split: Vec<u8> = data.iter().step_by(2).chain(data.iter().skip(1).step_by(2)).copied().collect();
+    let mut split: Vec<u8> = data
+        .iter()
+        .step_by(2)
+        .chain(data.iter().skip(1).step_by(2))
+        .copied()
+        .collect();
     for i in (1..split.len()).rev() {
         split[i] = split[i].wrapping_sub(split[i - 1]).wrapping_add(128);
     }
@@ -735,11 +954,23 @@ mod tests {
     fn round_trip() {
         let list = sample_list();
         let back = decoded(&bytes_of(&list)).unwrap();
-        assert_eq!((back.offsets(), back.view_z(), back.alpha()), (list.offsets(), list.view_z(), list.alpha()));
+        assert_eq!(
+            (back.offsets(), back.view_z(), back.alpha()),
+            (list.offsets(), list.view_z(), list.alpha())
+        );
         assert_eq!((back.size(), back.planes()), (list.size(), list.planes()));
-        for ((a, b), alpha) in back.color().unwrap().iter().zip(list.color().unwrap()).zip(list.alpha()) {
+        for ((a, b), alpha) in back
+            .color()
+            .unwrap()
+            .iter()
+            .zip(list.color().unwrap())
+            .zip(list.alpha())
+        {
             let expected = if *alpha == 0.0 { [0.0; 3] } else { *b };
-            assert!(a.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 2e-7), "{a:?} {expected:?}");
+            assert!(
+                a.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 2e-7),
+                "{a:?} {expected:?}"
+            );
         }
         // A long row compresses; the short ones above are stored as they are.
         let n = 5000;
@@ -747,9 +978,17 @@ mod tests {
         let bytes = bytes_of(&long);
         assert!(bytes.len() < 5000);
         let back = decoded(&bytes).unwrap();
-        assert_eq!((back.view_z(), back.alpha(), back.size()), (long.view_z(), long.alpha(), Some((2, 1))));
+        assert_eq!(
+            (back.view_z(), back.alpha(), back.size()),
+            (long.view_z(), long.alpha(), Some((2, 1)))
+        );
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap();
-        assert!(write(Path::new("never.exr"), Replace::No, &none).unwrap_err().to_string().contains("0 x 1 pixels"));
+        assert!(
+            write(Path::new("never.exr"), Replace::No, &none)
+                .unwrap_err()
+                .to_string()
+                .contains("0 x 1 pixels")
+        );
     }
 
     #[test]
@@ -799,28 +1038,49 @@ mod tests {
             (changed(find(b"Z\0\x02"), b"Q"), "no channel Z (depth)"),
             (changed(find(b"R\0\x02"), b"Q"), "needs R, G and B"),
             (changed(find(b"deepscanline"), b"scanlineimag"), "flat"),
-            (changed(data_at, &[0; 8]), "scanline block 0: its chunk table entry is 0"),
+            (
+                changed(data_at, &[0; 8]),
+                "scanline block 0: its chunk table entry is 0",
+            ),
             (changed(data_at + 8, &[255; 8]), "the file ends within scanline block 1"),
             (changed(first, &[9]), "its chunk says [9] where [0] is expected"),
             // The first row's running sums 2, 2, 3 follow the chunk's 28 bytes.
-            (changed(first + 28, &[200]), "scanline block 0, pixel (1, 0): the running sum of samples goes from 200 to 2"),
-            (changed(first + 36, &[5]), "5 samples of 20 bytes are counted, but 60 bytes declared"),
+            (
+                changed(first + 28, &[200]),
+                "scanline block 0, pixel (1, 0): the running sum of samples goes from 200 to 2",
+            ),
+            (
+                changed(first + 36, &[5]),
+                "5 samples of 20 bytes are counted, but 60 bytes declared",
+            ),
         ];
         for (message, part) in cases {
-            assert!(message.contains(part) && message.contains("deep.exr"), "{message} / {part}");
+            assert!(
+                message.contains(part) && message.contains("deep.exr"),
+                "{message} / {part}"
+            );
         }
     }
 
     #[test]
     fn halves_and_runs() {
-        for (bits, value) in [(0u16, 0.0f32), (0x3c00, 1.0), (0xc000, -2.0), (1, 5.960_464_5e-8), (0x7bff, 65504.0), (0x3555, 0.333_251_95)] {
+        for (bits, value) in [
+            (0u16, 0.0f32),
+            (0x3c00, 1.0),
+            (0xc000, -2.0),
+            (1, 5.960_464_5e-8),
+            (0x7bff, 65504.0),
+            (0x3555, 0.333_251_95),
+        ] {
             assert_eq!(half(bits), value);
         }
         assert!(half(0x7e00).is_nan() && half(0x7c00) == f32::INFINITY);
         let mut out = [0; 5];
         assert!(unpack_runs(&[2, 7, 254, 1, 2], &mut out));
         assert_eq!(out, [7, 7, 7, 1, 2]);
-        assert!(!unpack_runs(&[3, 7], &mut out) && !unpack_runs(&[5, 7], &mut out) && !unpack_runs(&[251, 1], &mut out));
+        assert!(
+            !unpack_runs(&[3, 7], &mut out) && !unpack_runs(&[5, 7], &mut out) && !unpack_runs(&[251, 1], &mut out)
+        );
     }
 
     /// Slices of a volume hide as much as the whole. Tolerance: alphas are f32.
@@ -830,12 +1090,22 @@ mod tests {
             path: Path::new("deep.exr"),
             packing: Packing::None,
             kinds: vec![Kind::Float; 3],
-            used: Used { z: 0, alpha: 1, color: None, z_back: Some(2) },
+            used: Used {
+                z: 0,
+                alpha: 1,
+                color: None,
+                z_back: Some(2),
+            },
             slices: NonZeroU32::new(slices),
             bytes_a_sample: 12,
         };
         let value = |channel: usize, _: usize| [2.0, 0.7, 4.0][channel];
-        let mut out = Decoded { counts: Vec::new(), view_z: Vec::new(), alpha: Vec::new(), color: Vec::new() };
+        let mut out = Decoded {
+            counts: Vec::new(),
+            view_z: Vec::new(),
+            alpha: Vec::new(),
+            color: Vec::new(),
+        };
         layout(4).sample(&value, 0, &mut out).unwrap();
         assert_eq!(out.view_z, [2.25, 2.75, 3.25, 3.75]);
         let through: f64 = out.alpha.iter().map(|&a| 1.0 - f64::from(a)).product();

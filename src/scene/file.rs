@@ -66,8 +66,8 @@ impl SceneFile {
     /// [`SceneError`] names the file, the line or the field, and what is expected there.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let bytes = read(path)?;
-        let text =
-            std::str::from_utf8(&bytes).map_err(|e| SceneError::file_content(path, &format!("byte {}", e.valid_up_to()), "not a text file"))?;
+        let text = std::str::from_utf8(&bytes)
+            .map_err(|e| SceneError::file_content(path, &format!("byte {}", e.valid_up_to()), "not a text file"))?;
         Self::parse(path, text)
     }
 
@@ -76,7 +76,10 @@ impl SceneFile {
     /// # Errors
     /// As [`Self::read`].
     pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
-        let mut scene: Self = toml::from_str(text).map_err(|e| SceneError::Toml { path: path.to_owned(), message: e.to_string() })?;
+        let mut scene: Self = toml::from_str(text).map_err(|e| SceneError::Toml {
+            path: path.to_owned(),
+            message: e.to_string(),
+        })?;
         scene.path = path.to_owned();
         scene.validate()?;
         Ok(scene)
@@ -90,41 +93,85 @@ impl SceneFile {
         if !BUILT_IN.contains(&name) {
             return Err(SceneError::UnknownBuiltIn { name: name.to_owned() });
         }
-        Ok(Self { built_in: Some(name.to_owned()), seed: None, camera: None, meshes: Vec::new(), path: name.into() })
+        Ok(Self {
+            built_in: Some(name.to_owned()),
+            seed: None,
+            camera: None,
+            meshes: Vec::new(),
+            path: name.into(),
+        })
     }
 
     fn validate(&self) -> Result<(), SceneError> {
-        let wrong = |field: &str, found: String, expected: &str| Err(SceneError::field(&self.path, field, found, expected));
+        let wrong =
+            |field: &str, found: String, expected: &str| Err(SceneError::field(&self.path, field, found, expected));
         match (&self.built_in, self.meshes.is_empty()) {
             (None, true) => return wrong("built_in, mesh", "neither is there".to_owned(), "one of them"),
             (Some(_), false) => return wrong("built_in, mesh", "both are there".to_owned(), "one of them"),
             (Some(name), true) if !BUILT_IN.contains(&name.as_str()) => {
-                return wrong("built_in", format!("'{name}'"), &format!("one of {}", BUILT_IN.join(", ")));
+                return wrong(
+                    "built_in",
+                    format!("'{name}'"),
+                    &format!("one of {}", BUILT_IN.join(", ")),
+                );
             }
-            (None, false) if self.camera.is_none() => return wrong("camera", "it is missing".to_owned(), "a [camera] for the meshes"),
-            (None, false) if self.seed.is_some() => return wrong("seed", "there are meshes".to_owned(), "no seed, which only built-in scenes have"),
+            (None, false) if self.camera.is_none() => {
+                return wrong("camera", "it is missing".to_owned(), "a [camera] for the meshes");
+            }
+            (None, false) if self.seed.is_some() => {
+                return wrong(
+                    "seed",
+                    "there are meshes".to_owned(),
+                    "no seed, which only built-in scenes have",
+                );
+            }
             _ => {}
         }
         if let Some(camera) = &self.camera {
             camera.view(&self.path)?;
         }
         for (i, mesh) in self.meshes.iter().enumerate() {
-            let overall = (String::new(), Look { alpha: mesh.alpha, color: mesh.color });
-            let looks = mesh.materials.iter().map(|(name, look)| (format!(".materials.{name}"), *look));
+            let overall = (
+                String::new(),
+                Look {
+                    alpha: mesh.alpha,
+                    color: mesh.color,
+                },
+            );
+            let looks = mesh
+                .materials
+                .iter()
+                .map(|(name, look)| (format!(".materials.{name}"), *look));
             for (place, look) in std::iter::once(overall).chain(looks) {
                 if let Some(alpha) = look.alpha.filter(|a| !(0.0..=1.0).contains(a)) {
-                    return wrong(&format!("mesh[{i}]{place}.alpha"), alpha.to_string(), "a number in [0, 1]");
+                    return wrong(
+                        &format!("mesh[{i}]{place}.alpha"),
+                        alpha.to_string(),
+                        "a number in [0, 1]",
+                    );
                 }
                 if let Some(color) = look.color.filter(|c| c.iter().any(|x| !(0.0..=1.0).contains(x))) {
-                    return wrong(&format!("mesh[{i}]{place}.color"), format!("{color:?}"), "three numbers in [0, 1]");
+                    return wrong(
+                        &format!("mesh[{i}]{place}.color"),
+                        format!("{color:?}"),
+                        "three numbers in [0, 1]",
+                    );
                 }
             }
             if let Some(scale) = mesh.scale.filter(|s| !(*s > 0.0 && *s <= 1e12)) {
-                return wrong(&format!("mesh[{i}].scale"), scale.to_string(), "a number greater than 0, 1e12 at most");
+                return wrong(
+                    &format!("mesh[{i}].scale"),
+                    scale.to_string(),
+                    "a number greater than 0, 1e12 at most",
+                );
             }
             for (field, v) in [("rotate", mesh.rotate), ("translate", mesh.translate)] {
                 if let Some(v) = v.filter(|v| !v.iter().all(|x| x.abs() <= 1e12)) {
-                    return wrong(&format!("mesh[{i}].{field}"), format!("{v:?}"), "three finite numbers of size 1e12 at most");
+                    return wrong(
+                        &format!("mesh[{i}].{field}"),
+                        format!("{v:?}"),
+                        "three finite numbers of size 1e12 at most",
+                    );
                 }
             }
         }
@@ -140,7 +187,14 @@ impl SceneFile {
         let mut camera = match (&self.camera, &self.built_in) {
             (Some(camera), _) => *camera,
             (None, Some(name)) => procedural::camera(name),
-            (None, None) => return Err(SceneError::field(&self.path, "camera", "it is missing".to_owned(), "a [camera] for the meshes")),
+            (None, None) => {
+                return Err(SceneError::field(
+                    &self.path,
+                    "camera",
+                    "it is missing".to_owned(),
+                    "a [camera] for the meshes",
+                ));
+            }
         };
         if let Some((width, height)) = options.size {
             (camera.width, camera.height) = (width, height);
@@ -159,14 +213,29 @@ impl SceneFile {
         for (i, entry) in self.meshes.iter().enumerate() {
             let file = folder.join(&entry.file);
             let parts = mesh::load(&file, entry.alpha.is_none() || entry.color.is_none())?;
-            let unknown = entry.materials.keys().find(|name| !parts.iter().any(|p| p.material.as_ref() == Some(name)));
+            let unknown = entry
+                .materials
+                .keys()
+                .find(|name| !parts.iter().any(|p| p.material.as_ref() == Some(name)));
             if let Some(name) = unknown {
                 let mut known: Vec<&str> = parts.iter().filter_map(|p| p.material.as_deref()).collect();
                 known.sort_unstable();
                 known.dedup();
-                let expected =
-                    format!("a material of {} ({})", file.display(), if known.is_empty() { "it has none".to_owned() } else { known.join(", ") });
-                return Err(SceneError::field(&self.path, &format!("mesh[{i}].materials.{name}"), "no such material".to_owned(), &expected));
+                let expected = format!(
+                    "a material of {} ({})",
+                    file.display(),
+                    if known.is_empty() {
+                        "it has none".to_owned()
+                    } else {
+                        known.join(", ")
+                    }
+                );
+                return Err(SceneError::field(
+                    &self.path,
+                    &format!("mesh[{i}].materials.{name}"),
+                    "no such material".to_owned(),
+                    &expected,
+                ));
             }
             let matrix = entry.matrix();
             for part in parts {
@@ -174,14 +243,24 @@ impl SceneFile {
                 let [r, g, b, a] = part.rgba;
                 let color = own.and_then(|l| l.color).or(entry.color).unwrap_or([r, g, b]);
                 let alpha = own.and_then(|l| l.alpha).or(entry.alpha).unwrap_or(a);
-                if geometry.triangles.len() + part.corners.len() / 3 > mesh::MOST_TRIANGLES {
-                    let expected = format!("{} triangles in the whole scene at most", mesh::MOST_TRIANGLES);
-                    return Err(SceneError::field(&self.path, &format!("mesh[{i}]"), "too many triangles".to_owned(), &expected));
+                if geometry.triangles.len() + part.corners.len() / 3 > mesh::MAX_TRIANGLES {
+                    let expected = format!("{} triangles in the whole scene at most", mesh::MAX_TRIANGLES);
+                    return Err(SceneError::field(
+                        &self.path,
+                        &format!("mesh[{i}]"),
+                        "too many triangles".to_owned(),
+                        &expected,
+                    ));
                 }
                 let far_off = |p: &&[f32; 3]| !apply(&matrix, p.map(f64::from)).iter().all(|x| x.abs() <= 1e18);
                 if let Some(p) = part.corners.iter().find(far_off) {
                     let found = format!("the transforms take the point {p:?} of {} too far away", file.display());
-                    return Err(SceneError::field(&self.path, &format!("mesh[{i}]"), found, "coordinates of size 1e18 at most"));
+                    return Err(SceneError::field(
+                        &self.path,
+                        &format!("mesh[{i}]"),
+                        found,
+                        "coordinates of size 1e18 at most",
+                    ));
                 }
                 // A material that is not there at all leaves no fragment.
                 if alpha > 0.0 {
@@ -189,7 +268,10 @@ impl SceneFile {
                         let p = [c[0], c[1], c[2]].map(|p| apply(&matrix, p.map(f64::from)));
                         let normal = unit(cross(sub(p[1], p[0]), sub(p[2], p[0])));
                         let [r, g, b] = lit(color, normal);
-                        p.map(|p| Vertex { position: p.map(|x| x as f32), rgba: [r, g, b, alpha] })
+                        p.map(|p| Vertex {
+                            position: p.map(|x| x as f32),
+                            rgba: [r, g, b, alpha],
+                        })
                     }));
                 }
             }

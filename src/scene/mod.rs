@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 pub const BUILT_IN: [&str; 6] = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
-pub const MOST_FRAGMENTS: u64 = 1 << 28;
+pub const MAX_FRAGMENTS: u64 = 1 << 28;
 
 /// What a caller may change about a scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -86,7 +86,7 @@ pub enum SceneError {
     },
     /// The picture would take too much memory.
     #[error(
-        "the scene has {fragments} fragments in {pixels} pixels; at most {MOST_FRAGMENTS} are supported, so lower the width and height or use fewer layers"
+        "the scene has {fragments} fragments in {pixels} pixels; at most {MAX_FRAGMENTS} are supported, so lower the width and height or use fewer layers"
     )]
     TooManyFragments {
         /// Number of fragments.
@@ -104,11 +104,20 @@ pub enum SceneError {
 
 impl SceneError {
     fn field(path: &Path, field: &str, found: String, expected: &str) -> Self {
-        Self::Field { path: path.to_owned(), field: field.to_owned(), found, expected: expected.to_owned() }
+        Self::Field {
+            path: path.to_owned(),
+            field: field.to_owned(),
+            found,
+            expected: expected.to_owned(),
+        }
     }
 
     fn file_content(path: &Path, place: &str, reason: impl Into<String>) -> Self {
-        Self::FileContent { path: path.to_owned(), place: place.to_owned(), reason: reason.into() }
+        Self::FileContent {
+            path: path.to_owned(),
+            place: place.to_owned(),
+            reason: reason.into(),
+        }
     }
 }
 
@@ -143,7 +152,12 @@ pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, Scene
 /// # Errors
 /// [`SceneError`] names the file, the place in it and what is expected there.
 pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
-    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+    match path
+        .extension()
+        .and_then(|e| e.to_str())
+        .map(str::to_ascii_lowercase)
+        .as_deref()
+    {
         Some("npz") => npz::read(path),
         Some("exr") => exr::read(path, &exr::ReadOptions::default()),
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
@@ -155,24 +169,50 @@ mod tests {
     use super::*;
 
     fn small(name: &str, size: u32, seed: u64) -> FragmentList {
-        build(&open(name).unwrap(), &Options { size: Some((size, size)), seed: Some(seed) }).unwrap()
+        build(
+            &open(name).unwrap(),
+            &Options {
+                size: Some((size, size)),
+                seed: Some(seed),
+            },
+        )
+        .unwrap()
     }
 
     #[test]
     fn built_in_scenes_have_the_depth_they_promise() {
-        for (name, least) in [("glass-stacks", 20), ("smoke", 101), ("hair", 151), ("foliage", 10), ("spheres", 6), ("teapots", 6)] {
+        for (name, least) in [
+            ("glass-stacks", 20),
+            ("smoke", 101),
+            ("hair", 151),
+            ("foliage", 10),
+            ("spheres", 6),
+            ("teapots", 6),
+        ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
             let covered = (0..list.pixels()).filter(|&p| !list.range(p).is_empty()).count();
-            assert!(covered * 10 > list.pixels(), "{name} covers {covered} of {} pixels", list.pixels());
+            assert!(
+                covered * 10 > list.pixels(),
+                "{name} covers {covered} of {} pixels",
+                list.pixels()
+            );
         }
     }
 
     #[test]
     fn threads_change_nothing_and_seeds_do() {
         for name in BUILT_IN {
-            let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(|| small(name, 48, 3));
-            let three = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap().install(|| small(name, 48, 3));
+            let one = rayon::ThreadPoolBuilder::new()
+                .num_threads(1)
+                .build()
+                .unwrap()
+                .install(|| small(name, 48, 3));
+            let three = rayon::ThreadPoolBuilder::new()
+                .num_threads(3)
+                .build()
+                .unwrap()
+                .install(|| small(name, 48, 3));
             assert_eq!(one, three, "{name}");
         }
         assert_ne!(small("smoke", 48, 3), small("smoke", 48, 4));
@@ -182,7 +222,14 @@ mod tests {
     fn example_scenes_build() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("configs/scenes");
         for name in ["house.toml", "smoke.toml"] {
-            let list = build(&SceneFile::read(&folder.join(name)).unwrap(), &Options { size: Some((64, 64)), seed: None }).unwrap();
+            let list = build(
+                &SceneFile::read(&folder.join(name)).unwrap(),
+                &Options {
+                    size: Some((64, 64)),
+                    seed: None,
+                },
+            )
+            .unwrap();
             assert!(list.depth_complexity() >= 2, "{name}");
         }
     }
@@ -190,40 +237,93 @@ mod tests {
     #[test]
     fn bad_scene_files_name_the_field() {
         let camera = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\nwidth = 8\nheight = 8\nnear = 0.1\nfar = 50\n";
-        let error = |text: String| SceneFile::parse(Path::new("a.toml"), &text).map(|_| ()).unwrap_err().to_string();
+        let error = |text: String| {
+            SceneFile::parse(Path::new("a.toml"), &text)
+                .map(|_| ())
+                .unwrap_err()
+                .to_string()
+        };
         let cases = [
             (error(String::new()), "built_in, mesh: neither"),
             (error("built_in = \"moon\"".to_owned()), "one of glass-stacks"),
             (error("surprise = 1".to_owned()), "surprise"),
-            (error(format!("built_in = \"smoke\"\n{}", camera.replace("width = 8", "width = 4000000"))), "camera.width: 4000000"),
-            (error(format!("built_in = \"smoke\"\n{}", camera.replace("near = 0.1", "near = nan"))), "camera.near, far"),
-            (error(format!("built_in = \"smoke\"\n{}", camera.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 5]"))), "camera.look_at"),
-            (error(format!("{camera}[[mesh]]\nfile = \"a.obj\"\nalpha = 1.5")), "mesh[0].alpha: 1.5"),
+            (
+                error(format!(
+                    "built_in = \"smoke\"\n{}",
+                    camera.replace("width = 8", "width = 4000000")
+                )),
+                "camera.width: 4000000",
+            ),
+            (
+                error(format!(
+                    "built_in = \"smoke\"\n{}",
+                    camera.replace("near = 0.1", "near = nan")
+                )),
+                "camera.near, far",
+            ),
+            (
+                error(format!(
+                    "built_in = \"smoke\"\n{}",
+                    camera.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 5]")
+                )),
+                "camera.look_at",
+            ),
+            (
+                error(format!("{camera}[[mesh]]\nfile = \"a.obj\"\nalpha = 1.5")),
+                "mesh[0].alpha: 1.5",
+            ),
             (error("[[mesh]]\nfile = \"a.obj\"".to_owned()), "camera: it is missing"),
         ];
         for (message, part) in cases {
-            assert!(message.contains(part) && message.contains("a.toml"), "{message} / {part}");
+            assert!(
+                message.contains(part) && message.contains("a.toml"),
+                "{message} / {part}"
+            );
         }
     }
 
     #[test]
     fn bad_meshes_name_the_file_and_the_place() {
         let folder = tempfile::tempdir().unwrap();
-        let gltf =
-            |nodes: &str, buffers: &str| format!(r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{nodes}{buffers}}}"#);
+        let gltf = |nodes: &str, buffers: &str| {
+            format!(r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{nodes}{buffers}}}"#)
+        };
         let cases = [
-            ("a.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_owned(), "vertex 2 (line 2)"),
+            (
+                "a.obj",
+                "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_owned(),
+                "vertex 2 (line 2)",
+            ),
             ("b.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "out of bounds"),
-            ("c.obj", "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
+            (
+                "c.obj",
+                "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(),
+                "material library",
+            ),
             ("d.gltf", gltf(r#"[{"children":[1]},{"children":[0]}]"#, ""), "cycle"),
-            ("j.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//6148914691236517206 2//1 3//1\n".to_owned(), "line 5: index 6148914691236517206"),
-            ("i.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(), "material library"),
+            (
+                "j.obj",
+                "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//6148914691236517206 2//1 3//1\n".to_owned(),
+                "line 5: index 6148914691236517206",
+            ),
+            (
+                "i.obj",
+                "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(),
+                "material library",
+            ),
             (
                 "h.gltf",
-                gltf(r#"[{"mesh":0}]"#, r#","meshes":[{"primitives":[{"attributes":{"POSITION":9}}]}]"#),
+                gltf(
+                    r#"[{"mesh":0}]"#,
+                    r#","meshes":[{"primitives":[{"attributes":{"POSITION":9}}]}]"#,
+                ),
                 "meshes[0].primitives[0]: an attribute names accessor 9 of 0",
             ),
-            ("e.gltf", gltf("[{}]", r#","buffers":[{"byteLength":12,"uri":"gone.bin"}]"#), "gone.bin"),
+            (
+                "e.gltf",
+                gltf("[{}]", r#","buffers":[{"byteLength":12,"uri":"gone.bin"}]"#),
+                "gone.bin",
+            ),
             ("f.glb", "glTF\u{2}\0\0\0".to_owned(), "ends early"),
             ("g.stl", String::new(), ".obj, .gltf or .glb"),
         ];

@@ -14,7 +14,10 @@ use std::path::Path;
 /// # Errors
 /// [`SceneError`] names the file, the array, the entry and what is expected there.
 pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
-    let npz = Npz::read(path, &["offsets", "view_z", "alpha", "color", "width", "height", "near", "far"])?;
+    let npz = Npz::read(
+        path,
+        &["offsets", "view_z", "alpha", "color", "width", "height", "near", "far"],
+    )?;
     let view_z = vector(&npz, "view_z", npz.required::<f32>("view_z")?)?;
     let alpha = vector(&npz, "alpha", npz.required::<f32>("alpha")?)?;
     let offsets = offsets(&npz)?;
@@ -26,15 +29,30 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
                 debug_assert_eq!(flat.len(), 3 * n);
                 Some(flat.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
             }
-            _ => return Err(npz.wrong("color", format!("shape {:?}", color.shape()), "[F, 3]").into()),
+            _ => {
+                return Err(npz
+                    .wrong("color", format!("shape {:?}", color.shape()), "[F, 3]")
+                    .into());
+            }
         },
     };
-    let content = |source: FragmentError| SceneError::Content { path: path.to_owned(), source };
+    let content = |source: FragmentError| SceneError::Content {
+        path: path.to_owned(),
+        source,
+    };
     let mut list = FragmentList::new(offsets, view_z, alpha, color).map_err(content)?;
     match (scalar(&npz, "width")?, scalar(&npz, "height")?) {
-        (Some(w), Some(h)) => list = list.with_size(whole(&npz, "width", w)?, whole(&npz, "height", h)?).map_err(content)?,
+        (Some(w), Some(h)) => {
+            list = list
+                .with_size(whole(&npz, "width", w)?, whole(&npz, "height", h)?)
+                .map_err(content)?
+        }
         (None, None) => {}
-        _ => return Err(npz.wrong("width, height", "only one of them is there", "both or none").into()),
+        _ => {
+            return Err(npz
+                .wrong("width, height", "only one of them is there", "both or none")
+                .into());
+        }
     }
     match (scalar(&npz, "near")?, scalar(&npz, "far")?) {
         (Some(near), Some(far)) => {
@@ -42,7 +60,11 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
             list = list.with_planes(planes);
         }
         (None, None) => {}
-        _ => return Err(npz.wrong("near, far", "only one of them is there", "both or none").into()),
+        _ => {
+            return Err(npz
+                .wrong("near, far", "only one of them is there", "both or none")
+                .into());
+        }
     }
     Ok(list)
 }
@@ -87,7 +109,9 @@ fn offsets(npz: &Npz) -> Result<Vec<u64>, NpyError> {
         values
             .iter()
             .enumerate()
-            .map(|(i, &v)| u64::try_from(v).map_err(|_| npz.wrong(NAME, format!("offsets[{i}] = {v}"), "no negative offset")))
+            .map(|(i, &v)| {
+                u64::try_from(v).map_err(|_| npz.wrong(NAME, format!("offsets[{i}] = {v}"), "no negative offset"))
+            })
             .collect()
     };
     let wrong_type = match npz.required::<u64>(NAME) {
@@ -105,9 +129,12 @@ fn offsets(npz: &Npz) -> Result<Vec<u64>, NpyError> {
         return signed(vector(npz, NAME, array)?.into_iter().map(i64::from).collect());
     }
     Err(match wrong_type {
-        NpyError::Array { path, name, reason, .. } => {
-            NpyError::Array { path, name, reason, expected: "a whole NumPy array of uint32 or uint64".to_owned() }
-        }
+        NpyError::Array { path, name, reason, .. } => NpyError::Array {
+            path,
+            name,
+            reason,
+            expected: "a whole NumPy array of uint32 or uint64".to_owned(),
+        },
         other => other,
     })
 }
@@ -125,13 +152,21 @@ fn scalar(npz: &Npz, name: &str) -> Result<Option<f64>, NpyError> {
             _ => Err(npz.wrong(name, format!("shape {:?}", array.shape()), "a single number")),
         })
     }
-    if let Some(found) = one::<f32>(npz, name).or_else(|| one::<u32>(npz, name)).or_else(|| one::<f64>(npz, name)).or_else(|| one::<i32>(npz, name)) {
+    if let Some(found) = one::<f32>(npz, name)
+        .or_else(|| one::<u32>(npz, name))
+        .or_else(|| one::<f64>(npz, name))
+        .or_else(|| one::<i32>(npz, name))
+    {
         return found;
     }
     // 64-bit integers do not convert to f64 without loss; a width or height that needs them is absurd anyway.
     match npz.optional::<i64>(name) {
         Ok(Some(array)) if array.len() == 1 => Ok(array.first().map(|&v| v as f64)),
-        _ => Err(npz.wrong(name, "not a number of a usual type", "one float32, float64, int32, int64 or uint32")),
+        _ => Err(npz.wrong(
+            name,
+            "not a number of a usual type",
+            "one float32, float64, int32, int64 or uint32",
+        )),
     }
 }
 
@@ -157,11 +192,16 @@ mod tests {
 
     #[test]
     fn everything_survives() {
-        let list = FragmentList::new(vec![0, 0, 2, 2], vec![1.0, 2.0], vec![0.0, 1.0], Some(vec![[0.1, 0.2, 0.3], [1.0, 0.0, 0.5]]))
-            .unwrap()
-            .with_size(3, 1)
-            .unwrap()
-            .with_planes(CameraPlanes::new(0.5, 10.0).unwrap());
+        let list = FragmentList::new(
+            vec![0, 0, 2, 2],
+            vec![1.0, 2.0],
+            vec![0.0, 1.0],
+            Some(vec![[0.1, 0.2, 0.3], [1.0, 0.0, 0.5]]),
+        )
+        .unwrap()
+        .with_size(3, 1)
+        .unwrap()
+        .with_planes(CameraPlanes::new(0.5, 10.0).unwrap());
         assert_eq!(round_trip(&list), list);
         let none = FragmentList::new(vec![0], vec![], vec![], None).unwrap();
         assert_eq!(round_trip(&none), none);
@@ -200,12 +240,45 @@ mod tests {
         let ok = ("offsets", encode(ArrayView1::from(&[0u32, 1])));
         type Case<'a> = (Vec<(&'a str, Vec<u8>)>, &'a str);
         let cases: [Case<'_>; 6] = [
-            (vec![("offsets", encode(ArrayView1::from(&[0i64, -1]))), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))], "offsets[1] = -1"),
-            (vec![("offsets", f(&[0.0, 1.0])), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))], "expected a whole NumPy array of uint32 or uint64"),
+            (
+                vec![
+                    ("offsets", encode(ArrayView1::from(&[0i64, -1]))),
+                    ("view_z", f(&[1.0])),
+                    ("alpha", f(&[0.5])),
+                ],
+                "offsets[1] = -1",
+            ),
+            (
+                vec![("offsets", f(&[0.0, 1.0])), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))],
+                "expected a whole NumPy array of uint32 or uint64",
+            ),
             (vec![ok.clone(), ("view_z", f(&[1.0]))], "there is no array 'alpha'"),
-            (vec![ok.clone(), ("view_z", f(&[1.0])), ("alpha", f(&[0.5])), ("color", f(&[0.5]))], "expected [F, 3]"),
-            (vec![ok.clone(), ("view_z", f(&[1.0])), ("alpha", f(&[0.5])), ("width", encode(arr0(1u32).view()))], "only one of them"),
-            (vec![ok, ("view_z", encode(ArrayView1::from(&[1.0f64]))), ("alpha", f(&[0.5]))], "expected a whole NumPy array of float32"),
+            (
+                vec![
+                    ok.clone(),
+                    ("view_z", f(&[1.0])),
+                    ("alpha", f(&[0.5])),
+                    ("color", f(&[0.5])),
+                ],
+                "expected [F, 3]",
+            ),
+            (
+                vec![
+                    ok.clone(),
+                    ("view_z", f(&[1.0])),
+                    ("alpha", f(&[0.5])),
+                    ("width", encode(arr0(1u32).view())),
+                ],
+                "only one of them",
+            ),
+            (
+                vec![
+                    ok,
+                    ("view_z", encode(ArrayView1::from(&[1.0f64]))),
+                    ("alpha", f(&[0.5])),
+                ],
+                "expected a whole NumPy array of float32",
+            ),
         ];
         for (arrays, part) in cases {
             write(&arrays);

@@ -19,12 +19,24 @@ pub(super) fn camera(name: &str) -> Camera {
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
         _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
     };
-    Camera { position, look_at, up: [0.0, 1.0, 0.0], vertical_fov, width: 512, height: 512, near: 0.5, far: 40.0 }
+    Camera {
+        position,
+        look_at,
+        up: [0.0, 1.0, 0.0],
+        vertical_fov,
+        width: 512,
+        height: 512,
+        near: 0.5,
+        far: 40.0,
+    }
 }
 
 /// The geometry of a built-in scene for a viewer at `eye`.
 pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
-    let mut out = Builder { eye, geometry: Geometry::default() };
+    let mut out = Builder {
+        eye,
+        geometry: Geometry::default(),
+    };
     match name {
         "glass-stacks" => glass_stacks(&mut out, seed),
         "smoke" => smoke(&mut out, seed),
@@ -85,13 +97,19 @@ impl Builder {
         let facing = dot(normal, unit(sub(self.eye, position))).abs().min(1.0) as f32;
         let side = (1.0 - facing) * (1.0 - facing);
         let alpha = (paint.alpha + (1.0 - paint.alpha) * paint.rim * side).clamp(0.0, 1.0);
-        Vertex { position: position.map(|x| x as f32), rgba: [r, g, b, alpha] }
+        Vertex {
+            position: position.map(|x| x as f32),
+            rgba: [r, g, b, alpha],
+        }
     }
 
     fn flat(&mut self, corners: [Vec3; 3], paint: Paint) {
         let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
         let [r, g, b] = lit(paint.color, normal);
-        self.geometry.triangles.push(corners.map(|p| Vertex { position: p.map(|x| x as f32), rgba: [r, g, b, paint.alpha] }));
+        self.geometry.triangles.push(corners.map(|p| Vertex {
+            position: p.map(|x| x as f32),
+            rgba: [r, g, b, paint.alpha],
+        }));
     }
 
     fn quad(&mut self, [a, b, c, d]: [Vec3; 4], paint: Paint) {
@@ -109,10 +127,16 @@ impl Builder {
             let (v0, v1) = ((v - STEP).max(0.0), (v + STEP).min(1.0));
             // At a pole the circle of u is a point: take the normal a little way off it.
             let inner = v.clamp(2.0 * STEP, 1.0 - 2.0 * STEP);
-            let normal = unit(cross(sub(point(u + STEP, inner), point(u - STEP, inner)), sub(point(u, v1), point(u, v0))));
+            let normal = unit(cross(
+                sub(point(u + STEP, inner), point(u - STEP, inner)),
+                sub(point(u, v1), point(u, v0)),
+            ));
             self.vertex(point(u, v), normal, paint)
         };
-        let grid: Vec<Vertex> = (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j))).map(|(i, j)| corner(i, j)).collect();
+        let grid: Vec<Vertex> = (0..=rows)
+            .flat_map(|j| (0..=columns).map(move |i| (i, j)))
+            .map(|(i, j)| corner(i, j))
+            .collect();
         for j in 0..rows {
             for i in 0..columns {
                 let k = j * (columns + 1) + i;
@@ -125,26 +149,50 @@ impl Builder {
     fn sphere(&mut self, center: Vec3, radius: f64, paint: Paint) {
         self.surface(72, 36, paint, |u, v| {
             let ring = radius * libm::sin(PI * v);
-            add(center, [ring * libm::cos(TAU * u), radius * libm::cos(PI * v), ring * libm::sin(TAU * u)])
+            add(
+                center,
+                [
+                    ring * libm::cos(TAU * u),
+                    radius * libm::cos(PI * v),
+                    ring * libm::sin(TAU * u),
+                ],
+            )
         });
     }
 
     /// A round tube of varying radius along a curve in the plane z = 0 of a frame, open at both ends.
-    fn tube(&mut self, paint: Paint, place: impl Fn(Vec3) -> Vec3, curve: impl Fn(f64) -> (f64, f64), radius: impl Fn(f64) -> f64) {
+    fn tube(
+        &mut self,
+        paint: Paint,
+        place: impl Fn(Vec3) -> Vec3,
+        curve: impl Fn(f64) -> (f64, f64),
+        radius: impl Fn(f64) -> f64,
+    ) {
         const STEP: f64 = 1e-3;
         self.surface(20, 20, paint, |u, v| {
             let (x, y) = curve(v);
             let ((x0, y0), (x1, y1)) = (curve(v - STEP), curve(v + STEP));
             let side = unit([y1 - y0, x0 - x1, 0.0]);
             let (r, angle) = (radius(v), TAU * u);
-            place([x + r * libm::cos(angle) * side[0], y + r * libm::cos(angle) * side[1], r * libm::sin(angle)])
+            place([
+                x + r * libm::cos(angle) * side[0],
+                y + r * libm::cos(angle) * side[1],
+                r * libm::sin(angle),
+            ])
         });
     }
 }
 
 /// Stacks of coloured panes that stand behind one another.
 fn glass_stacks(out: &mut Builder, seed: u64) {
-    const COLORS: [[f32; 3]; 6] = [[0.15, 0.55, 0.95], [0.1, 0.8, 0.55], [0.98, 0.75, 0.15], [0.95, 0.3, 0.25], [0.65, 0.35, 0.9], [0.2, 0.8, 0.9]];
+    const COLORS: [[f32; 3]; 6] = [
+        [0.15, 0.55, 0.95],
+        [0.1, 0.8, 0.55],
+        [0.98, 0.75, 0.15],
+        [0.95, 0.3, 0.25],
+        [0.65, 0.35, 0.9],
+        [0.2, 0.8, 0.9],
+    ];
     const PANES: usize = 9;
     for stack in 0..9u64 {
         let (column, row) = ((stack % 3) as f64 - 1.0, (stack / 3) as f64 - 1.0);
@@ -152,15 +200,29 @@ fn glass_stacks(out: &mut Builder, seed: u64) {
         let turn = between(&mut rng, -0.35, 0.35);
         let (sin, cos) = (libm::sin(turn), libm::cos(turn));
         let first = (between(&mut rng, 0.0, 6.0) as usize).min(5);
-        let place = |p: Vec3| [column * 1.45 + cos * p[0] + sin * p[2], p[1], row * 1.45 - sin * p[0] + cos * p[2]];
+        let place = |p: Vec3| {
+            [
+                column * 1.45 + cos * p[0] + sin * p[2],
+                p[1],
+                row * 1.45 - sin * p[0] + cos * p[2],
+            ]
+        };
         for pane in 0..PANES {
-            let color = mix(COLORS[first], COLORS[(first + 1 + stack as usize % 2) % 6], pane as f32 / (PANES - 1) as f32);
+            let color = mix(
+                COLORS[first],
+                COLORS[(first + 1 + stack as usize % 2) % 6],
+                pane as f32 / (PANES - 1) as f32,
+            );
             let alpha = between(&mut rng, 0.08, 0.4) as f32;
             let height = between(&mut rng, 0.75, 1.15);
             let (x, z, thick) = (0.46, (pane as f64 / (PANES - 1) as f64 - 0.5) * 0.9, 0.012);
             let corner = |i: usize| {
                 let sign = |bit: usize, size: f64| if i >> bit & 1 == 1 { size } else { -size };
-                place([sign(0, x), if i >> 1 & 1 == 1 { height } else { 0.0 }, z + sign(2, thick)])
+                place([
+                    sign(0, x),
+                    if i >> 1 & 1 == 1 { height } else { 0.0 },
+                    z + sign(2, thick),
+                ])
             };
             let face = |ids: [usize; 4]| ids.map(corner);
             for ids in [[0, 1, 3, 2], [4, 5, 7, 6]] {
@@ -168,7 +230,14 @@ fn glass_stacks(out: &mut Builder, seed: u64) {
             }
             // The edges of a pane are seen through much more glass than its faces.
             for ids in [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6]] {
-                out.quad(face(ids), Paint { color: mix(color, [0.0, 0.15, 0.1], 0.35), alpha: 0.75, rim: 0.0 });
+                out.quad(
+                    face(ids),
+                    Paint {
+                        color: mix(color, [0.0, 0.15, 0.1], 0.35),
+                        alpha: 0.75,
+                        rim: 0.0,
+                    },
+                );
             }
         }
     }
@@ -219,10 +288,18 @@ fn hair(out: &mut Builder, seed: u64) {
         let mut root = direction(&mut lock);
         root[1] = root[1].abs() * 0.9 + 0.1;
         let root = unit(add(root, scale(direction(&mut rng), 0.22)));
-        let curl = (between(&mut lock, 0.05, 0.16), between(&mut lock, 5.0, 9.0), between(&mut lock, 0.0, TAU));
+        let curl = (
+            between(&mut lock, 0.05, 0.16),
+            between(&mut lock, 5.0, 9.0),
+            between(&mut lock, 0.0, TAU),
+        );
         let length = between(&mut lock, 2.0, 2.5) + between(&mut rng, -0.15, 0.15);
         let shade = between(&mut lock, 0.0, 1.0) as f32;
-        let base = mix([0.30, 0.13, 0.05], [0.75, 0.45, 0.18], shade * 0.8 + 0.2 * between(&mut rng, 0.0, 1.0) as f32);
+        let base = mix(
+            [0.30, 0.13, 0.05],
+            [0.75, 0.45, 0.18],
+            shade * 0.8 + 0.2 * between(&mut rng, 0.0, 1.0) as f32,
+        );
         let alpha = between(&mut rng, 0.12, 0.32) as f32;
         let point = |t: f64| {
             // Out of the scalp, over its curve, then down.
@@ -238,7 +315,14 @@ fn hair(out: &mut Builder, seed: u64) {
                 flat[2] * out_way * libm::sin(bend),
             ];
             let wave = curl.0 * t;
-            add(p, [wave * libm::sin(curl.1 * s + curl.2), 0.0, wave * libm::cos(curl.1 * s + curl.2)])
+            add(
+                p,
+                [
+                    wave * libm::sin(curl.1 * s + curl.2),
+                    0.0,
+                    wave * libm::cos(curl.1 * s + curl.2),
+                ],
+            )
         };
         let ribbon = |t: f64| {
             let p = point(t);
@@ -248,8 +332,15 @@ fn hair(out: &mut Builder, seed: u64) {
             // Light of a fibre: brightest where the lamp stands square to it.
             let square = 1.0 - dot(along, unit([-0.45, 0.75, 0.5])).abs();
             let glint = square * square * square * (1.0 - t) + 0.15;
-            let color = mix(base.map(|c| c * (0.45 + 0.55 * square as f32)), [1.0, 0.92, 0.75], (0.5 * glint) as f32);
-            let vertex = |p: Vec3| Vertex { position: p.map(|x| x as f32), rgba: [color[0], color[1], color[2], alpha] };
+            let color = mix(
+                base.map(|c| c * (0.45 + 0.55 * square as f32)),
+                [1.0, 0.92, 0.75],
+                (0.5 * glint) as f32,
+            );
+            let vertex = |p: Vec3| Vertex {
+                position: p.map(|x| x as f32),
+                rgba: [color[0], color[1], color[2], alpha],
+            };
             (vertex(sub(p, scale(across, half))), vertex(add(p, scale(across, half))))
         };
         let ends: Vec<_> = (0..=SEGMENTS).map(|k| ribbon(k as f64 / SEGMENTS as f64)).collect();
@@ -263,8 +354,17 @@ fn hair(out: &mut Builder, seed: u64) {
 /// A tree: a translucent trunk and boughs, and leaves that let a few per cent of the light through.
 fn foliage(out: &mut Builder, seed: u64) {
     const LEAVES: u64 = 9000;
-    let bark = Paint { color: [0.42, 0.28, 0.17], alpha: 0.985, rim: 0.0 };
-    out.tube(bark, |p| p, |v| (0.06 * libm::sin(3.0 * v), 2.3 * v), |v| 0.17 - 0.11 * v + 0.1 * libm::exp(-14.0 * v));
+    let bark = Paint {
+        color: [0.42, 0.28, 0.17],
+        alpha: 0.985,
+        rim: 0.0,
+    };
+    out.tube(
+        bark,
+        |p| p,
+        |v| (0.06 * libm::sin(3.0 * v), 2.3 * v),
+        |v| 0.17 - 0.11 * v + 0.1 * libm::exp(-14.0 * v),
+    );
     let boughs: Vec<Vec3> = (0..26u64)
         .map(|b| {
             let mut rng = random(seed, Purpose::Leaves, (1 << 32) + b);
@@ -277,9 +377,20 @@ fn foliage(out: &mut Builder, seed: u64) {
     for tip in &boughs {
         let from = [0.04, 0.9 + 0.35 * (tip[1] - 1.0), 0.0];
         let flat = unit([tip[0], 0.0, tip[2]]);
-        let place = |p: Vec3| [from[0] + p[0] * flat[0] - p[2] * flat[2], from[1] + p[1], from[2] + p[0] * flat[2] + p[2] * flat[0]];
+        let place = |p: Vec3| {
+            [
+                from[0] + p[0] * flat[0] - p[2] * flat[2],
+                from[1] + p[1],
+                from[2] + p[0] * flat[2] + p[2] * flat[0],
+            ]
+        };
         let reach = tip[0].hypot(tip[2]);
-        out.tube(bark, place, |v| (reach * v, (tip[1] - from[1]) * v * (0.6 + 0.4 * v)), |v| 0.045 * (1.0 - 0.8 * v));
+        out.tube(
+            bark,
+            place,
+            |v| (reach * v, (tip[1] - from[1]) * v * (0.6 + 0.4 * v)),
+            |v| 0.045 * (1.0 - 0.8 * v),
+        );
     }
     for i in 0..LEAVES {
         let mut rng = random(seed, Purpose::Leaves, i);
@@ -292,14 +403,26 @@ fn foliage(out: &mut Builder, seed: u64) {
         let across = cross(normal, along);
         let size = between(&mut rng, 0.055, 0.1);
         let color = mix(
-            mix([0.10, 0.42, 0.10], [0.45, 0.72, 0.16], between(&mut rng, 0.0, 1.0) as f32),
+            mix(
+                [0.10, 0.42, 0.10],
+                [0.45, 0.72, 0.16],
+                between(&mut rng, 0.0, 1.0) as f32,
+            ),
             [0.9, 0.6, 0.1],
             0.25 * libm::pow(between(&mut rng, 0.0, 1.0), 4.0) as f32,
         );
         let alpha = between(&mut rng, 0.86, 0.985) as f32;
         let paint = Paint { color, alpha, rim: 0.0 };
         // Pointed at both ends and folded along the midrib.
-        let at = |x: f64, y: f64| add(center, add(add(scale(along, x * size), scale(across, y * size)), scale(normal, 0.35 * y.abs() * size)));
+        let at = |x: f64, y: f64| {
+            add(
+                center,
+                add(
+                    add(scale(along, x * size), scale(across, y * size)),
+                    scale(normal, 0.35 * y.abs() * size),
+                ),
+            )
+        };
         let outline = [(-0.55, 0.34), (0.1, 0.42), (0.65, 0.22)];
         for side in [-1.0, 1.0] {
             let rim: Vec<Vec3> = outline.iter().map(|&(x, y)| at(x, side * y)).collect();
@@ -313,30 +436,86 @@ fn foliage(out: &mut Builder, seed: u64) {
 
 /// Spheres that cut into one another.
 fn spheres(out: &mut Builder) {
-    const COLORS: [[f32; 3]; 7] =
-        [[0.95, 0.25, 0.2], [0.98, 0.65, 0.1], [0.85, 0.85, 0.2], [0.2, 0.75, 0.3], [0.1, 0.65, 0.8], [0.25, 0.35, 0.95], [0.75, 0.3, 0.85]];
+    const COLORS: [[f32; 3]; 7] = [
+        [0.95, 0.25, 0.2],
+        [0.98, 0.65, 0.1],
+        [0.85, 0.85, 0.2],
+        [0.2, 0.75, 0.3],
+        [0.1, 0.65, 0.8],
+        [0.25, 0.35, 0.95],
+        [0.75, 0.3, 0.85],
+    ];
     for (i, &color) in COLORS.iter().enumerate() {
         let angle = TAU * i as f64 / COLORS.len() as f64;
-        let center = [1.0 * libm::cos(angle), 0.25 * libm::sin(2.0 * angle), 1.0 * libm::sin(angle)];
-        out.sphere(center, 0.72, Paint { color, alpha: 0.25 + 0.06 * (i % 4) as f32, rim: 0.45 });
+        let center = [
+            1.0 * libm::cos(angle),
+            0.25 * libm::sin(2.0 * angle),
+            1.0 * libm::sin(angle),
+        ];
+        out.sphere(
+            center,
+            0.72,
+            Paint {
+                color,
+                alpha: 0.25 + 0.06 * (i % 4) as f32,
+                rim: 0.45,
+            },
+        );
     }
-    out.sphere([0.0, 0.0, 0.0], 0.62, Paint { color: [0.95, 0.95, 0.98], alpha: 0.55, rim: 0.4 });
+    out.sphere(
+        [0.0, 0.0, 0.0],
+        0.62,
+        Paint {
+            color: [0.95, 0.95, 0.98],
+            alpha: 0.55,
+            rim: 0.4,
+        },
+    );
 }
 
 /// Rows of pots with a lid, a spout and a handle.
 fn teapots(out: &mut Builder) {
-    const COLORS: [[f32; 3]; 6] = [[0.9, 0.25, 0.2], [0.95, 0.6, 0.15], [0.35, 0.7, 0.25], [0.15, 0.65, 0.75], [0.25, 0.4, 0.9], [0.7, 0.3, 0.8]];
+    const COLORS: [[f32; 3]; 6] = [
+        [0.9, 0.25, 0.2],
+        [0.95, 0.6, 0.15],
+        [0.35, 0.7, 0.25],
+        [0.15, 0.65, 0.75],
+        [0.25, 0.4, 0.9],
+        [0.7, 0.3, 0.8],
+    ];
     // Radius and height of the body's outline, from the foot to the rim.
-    const BODY: [[f64; 2]; 9] =
-        [[0.0, 0.03], [0.30, 0.0], [0.36, 0.02], [0.52, 0.16], [0.60, 0.36], [0.55, 0.56], [0.42, 0.68], [0.36, 0.72], [0.38, 0.75]];
-    const LID: [[f64; 2]; 8] = [[0.37, 0.74], [0.33, 0.79], [0.20, 0.85], [0.07, 0.88], [0.05, 0.92], [0.10, 0.97], [0.08, 1.02], [0.0, 1.04]];
+    const BODY: [[f64; 2]; 9] = [
+        [0.0, 0.03],
+        [0.30, 0.0],
+        [0.36, 0.02],
+        [0.52, 0.16],
+        [0.60, 0.36],
+        [0.55, 0.56],
+        [0.42, 0.68],
+        [0.36, 0.72],
+        [0.38, 0.75],
+    ];
+    const LID: [[f64; 2]; 8] = [
+        [0.37, 0.74],
+        [0.33, 0.79],
+        [0.20, 0.85],
+        [0.07, 0.88],
+        [0.05, 0.92],
+        [0.10, 0.97],
+        [0.08, 1.02],
+        [0.0, 1.04],
+    ];
     for (i, &color) in COLORS.iter().enumerate() {
         let (column, row) = ((i % 3) as f64 - 1.0, (i / 3) as f64);
         let turn = -0.45 + 0.35 * column + 0.5 * row;
         let (sin, cos) = (libm::sin(turn), libm::cos(turn));
         let origin = [column * 1.75 + 0.25 * row, -0.25, 0.9 - 2.2 * row];
         let place = |p: Vec3| add(origin, [cos * p[0] + sin * p[2], p[1], cos * p[2] - sin * p[0]]);
-        let paint = Paint { color, alpha: 0.26 + 0.04 * i as f32, rim: 0.5 };
+        let paint = Paint {
+            color,
+            alpha: 0.26 + 0.04 * i as f32,
+            rim: 0.5,
+        };
         for outline in [BODY.as_slice(), LID.as_slice()] {
             out.surface(64, 40, paint, |u, v| {
                 let [r, y] = smooth(outline, v);
@@ -344,7 +523,12 @@ fn teapots(out: &mut Builder) {
             });
         }
         // The spout rises from the belly to a lip as high as the rim; the handle is an ear from shoulder to belly.
-        out.tube(paint, place, |v| (0.5 + 0.52 * v, 0.26 + 0.1 * v + 0.40 * v * v * (1.6 - 0.6 * v)), |v| 0.135 - 0.115 * v + 0.035 * v * v * v);
+        out.tube(
+            paint,
+            place,
+            |v| (0.5 + 0.52 * v, 0.26 + 0.1 * v + 0.40 * v * v * (1.6 - 0.6 * v)),
+            |v| 0.135 - 0.115 * v + 0.035 * v * v * v,
+        );
         let ear = |v: f64| {
             let angle = 0.62 * PI + 0.86 * PI * v;
             (-0.50 + 0.44 * libm::cos(angle), 0.40 + 0.24 * libm::sin(angle))

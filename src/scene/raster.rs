@@ -7,7 +7,7 @@
 //! needed. Fragments of a pixel stand in the order of the primitives (triangles first), whatever the number of threads.
 
 use super::camera::{Vec3, View};
-use super::{MOST_FRAGMENTS, SceneError};
+use super::{MAX_FRAGMENTS, SceneError};
 use crate::pixel::FragmentList;
 use rayon::prelude::*;
 
@@ -99,17 +99,29 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
         out
     });
     let mut primitives: Vec<Primitive> = triangles.map(Primitive::Triangle).collect();
-    primitives.extend(geometry.particles.iter().filter_map(|p| particle(p, view)).map(Primitive::Particle));
+    primitives.extend(
+        geometry
+            .particles
+            .iter()
+            .filter_map(|p| particle(p, view))
+            .map(Primitive::Particle),
+    );
 
     let (width, height) = (view.width as usize, view.height as usize);
     let bins = Bins::new(&primitives, height);
-    let any_opaque = primitives.iter().any(|p| matches!(p, Primitive::Triangle(t) if t.opaque));
+    let any_opaque = primitives
+        .iter()
+        .any(|p| matches!(p, Primitive::Triangle(t) if t.opaque));
     let far = view.planes.far();
     let counted: Vec<(Vec<u32>, Vec<f32>)> = (0..bins.bands())
         .into_par_iter()
         .map(|band| {
             let rows = band * BAND..((band + 1) * BAND).min(height);
-            let mut nearest = if any_opaque { vec![far; rows.len() * width] } else { Vec::new() };
+            let mut nearest = if any_opaque {
+                vec![far; rows.len() * width]
+            } else {
+                Vec::new()
+            };
             if any_opaque {
                 for &i in bins.of(band) {
                     if let Primitive::Triangle(t) = &primitives[i as usize]
@@ -121,15 +133,23 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
             }
             let mut counts = vec![0u32; rows.len() * width];
             for &i in bins.of(band) {
-                primitives[i as usize].draw(width, &rows, |p, z, _| counts[p] += u32::from(z <= limit(&nearest, p, far)));
+                primitives[i as usize].draw(width, &rows, |p, z, _| {
+                    counts[p] += u32::from(z <= limit(&nearest, p, far))
+                });
             }
             (counts, nearest)
         })
         .collect();
 
-    let total: u64 = counted.par_iter().map(|(counts, _)| counts.iter().map(|&c| u64::from(c)).sum::<u64>()).sum();
-    if total > MOST_FRAGMENTS {
-        return Err(SceneError::TooManyFragments { fragments: total, pixels: (width * height) as u64 });
+    let total: u64 = counted
+        .par_iter()
+        .map(|(counts, _)| counts.iter().map(|&c| u64::from(c)).sum::<u64>())
+        .sum();
+    if total > MAX_FRAGMENTS {
+        return Err(SceneError::TooManyFragments {
+            fragments: total,
+            pixels: (width * height) as u64,
+        });
     }
     let mut offsets = Vec::with_capacity(width * height + 1);
     offsets.push(0u64);
@@ -153,29 +173,36 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
         rest = (z_rest, a_rest, c_rest);
         jobs.push((band, counts, nearest, z, a, c));
     }
-    jobs.into_par_iter().for_each(|(band, counts, nearest, z_out, a_out, c_out)| {
-        let rows = band * BAND..((band + 1) * BAND).min(height);
-        let mut next = Vec::with_capacity(counts.len());
-        let mut at = 0usize;
-        for &c in &counts {
-            next.push(at);
-            at += c as usize;
-        }
-        for &i in bins.of(band) {
-            primitives[i as usize].draw(width, &rows, |p, z, rgba| {
-                if z <= limit(&nearest, p, far) {
-                    let at = next[p];
-                    z_out[at] = z;
-                    a_out[at] = rgba[3];
-                    c_out[at] = [rgba[0], rgba[1], rgba[2]];
-                    next[p] += 1;
-                }
-            });
-        }
-    });
-    let content = |source| SceneError::Content { path: "the rasterised scene".into(), source };
+    jobs.into_par_iter()
+        .for_each(|(band, counts, nearest, z_out, a_out, c_out)| {
+            let rows = band * BAND..((band + 1) * BAND).min(height);
+            let mut next = Vec::with_capacity(counts.len());
+            let mut at = 0usize;
+            for &c in &counts {
+                next.push(at);
+                at += c as usize;
+            }
+            for &i in bins.of(band) {
+                primitives[i as usize].draw(width, &rows, |p, z, rgba| {
+                    if z <= limit(&nearest, p, far) {
+                        let at = next[p];
+                        z_out[at] = z;
+                        a_out[at] = rgba[3];
+                        c_out[at] = [rgba[0], rgba[1], rgba[2]];
+                        next[p] += 1;
+                    }
+                });
+            }
+        });
+    let content = |source| SceneError::Content {
+        path: "the rasterised scene".into(),
+        source,
+    };
     let list = FragmentList::new(offsets, view_z, alpha, Some(color)).map_err(content)?;
-    Ok(list.with_size(view.width, view.height).map_err(content)?.with_planes(view.planes))
+    Ok(list
+        .with_size(view.width, view.height)
+        .map_err(content)?
+        .with_planes(view.planes))
 }
 
 /// View depth beyond which a fragment of a pixel is not seen.
@@ -195,7 +222,11 @@ impl Bins {
         let mut offsets = vec![0usize; bands + 1];
         let touched = |p: &Primitive| {
             let rows = p.rows(height);
-            if rows.is_empty() { 0..0 } else { rows.start / BAND..(rows.end - 1) / BAND + 1 }
+            if rows.is_empty() {
+                0..0
+            } else {
+                rows.start / BAND..(rows.end - 1) / BAND + 1
+            }
         };
         for p in primitives {
             for band in touched(p) {
@@ -231,9 +262,15 @@ impl Primitive {
         let (lo, hi) = match self {
             Self::Triangle(t) => {
                 let y = t.xy.map(|c| i64::from(c[1]));
-                (y.into_iter().min().unwrap_or(0).div_euclid(STEPS), y.into_iter().max().unwrap_or(0).div_euclid(STEPS) + 1)
+                (
+                    y.into_iter().min().unwrap_or(0).div_euclid(STEPS),
+                    y.into_iter().max().unwrap_or(0).div_euclid(STEPS) + 1,
+                )
             }
-            Self::Particle(p) => ((p.center.1 - p.radius).floor() as i64, (p.center.1 + p.radius).ceil() as i64),
+            Self::Particle(p) => (
+                (p.center.1 - p.radius).floor() as i64,
+                (p.center.1 + p.radius).ceil() as i64,
+            ),
         };
         lo.clamp(0, height as i64) as usize..hi.clamp(0, height as i64) as usize
     }
@@ -252,7 +289,13 @@ impl ScreenTriangle {
         let xy = self.xy.map(|c| c.map(i64::from));
         let edge = |i: usize| (xy[(i + 1) % 3], xy[(i + 2) % 3]);
         let area = cross_at(xy[0], xy[1], xy[2]);
-        let lo_y = xy.iter().map(|c| c[1]).min().unwrap_or(0).div_euclid(STEPS).max(rows.start as i64);
+        let lo_y = xy
+            .iter()
+            .map(|c| c[1])
+            .min()
+            .unwrap_or(0)
+            .div_euclid(STEPS)
+            .max(rows.start as i64);
         let hi_y = (xy.iter().map(|c| c[1]).max().unwrap_or(0).div_euclid(STEPS) + 1).min(rows.end as i64);
         let z = self.inverse_z.map(|q| (1.0 / q) as f32);
         let (nearest, farthest) = (z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2]));
@@ -334,28 +377,49 @@ fn particle(p: &Particle, view: &View) -> Option<ScreenParticle> {
     }
     let radius = view.focal * f64::from(p.radius) / at[2];
     let center = view.to_pixel(at);
-    (radius > 0.0 && radius.is_finite()).then_some(ScreenParticle { center, radius, view_z, rgba: p.rgba })
+    (radius > 0.0 && radius.is_finite()).then_some(ScreenParticle {
+        center,
+        radius,
+        view_z,
+        rgba: p.rgba,
+    })
 }
 
 /// Projects a triangle, cut at the near plane and at the guard band, as a fan.
 fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
-    let corners = triangle.map(|v| Corner { at: view.to_camera(v.position), rgba: v.rgba });
+    let corners = triangle.map(|v| Corner {
+        at: view.to_camera(v.position),
+        rgba: v.rgba,
+    });
     let (near, far) = (f64::from(view.planes.near()), f64::from(view.planes.far()));
     if corners.iter().all(|c| c.at[2] < near) || corners.iter().all(|c| c.at[2] > far) {
         return;
     }
     // |pixel offset from the centre| < GUARD  <=>  guard z − |x| > 0
     let guard = GUARD / view.focal;
-    let planes: [&dyn Fn(Vec3) -> f64; 5] =
-        [&|p| p[2] - near, &|p| guard * p[2] - p[0], &|p| guard * p[2] + p[0], &|p| guard * p[2] - p[1], &|p| guard * p[2] + p[1]];
+    let planes: [&dyn Fn(Vec3) -> f64; 5] = [
+        &|p| p[2] - near,
+        &|p| guard * p[2] - p[0],
+        &|p| guard * p[2] + p[0],
+        &|p| guard * p[2] - p[1],
+        &|p| guard * p[2] + p[1],
+    ];
     let whole = corners.iter().all(|c| planes.iter().all(|plane| plane(c.at) >= 0.0));
-    let polygon = if whole { corners.to_vec() } else { planes.iter().fold(corners.to_vec(), |polygon, plane| cut(&polygon, *plane)) };
+    let polygon = if whole {
+        corners.to_vec()
+    } else {
+        planes
+            .iter()
+            .fold(corners.to_vec(), |polygon, plane| cut(&polygon, *plane))
+    };
     let flat = triangle[0].rgba == triangle[1].rgba && triangle[0].rgba == triangle[2].rgba;
     let opaque = triangle.iter().all(|v| v.rgba[3] >= 1.0);
     let snap = |c: &Corner| {
         let (x, y) = view.to_pixel(c.at);
         // Rounding of far cut points may leave the guard band a little; whole-number products still fit at twice its size.
-        [x, y].map(|v| v.clamp(-2.0 * GUARD, 2.0 * GUARD)).map(|v| (v * STEPS as f64).round() as i32)
+        [x, y]
+            .map(|v| v.clamp(-2.0 * GUARD, 2.0 * GUARD))
+            .map(|v| (v * STEPS as f64).round() as i32)
     };
     for i in 1..polygon.len().max(2) - 1 {
         let mut fan = [polygon[0], polygon[i], polygon[i + 1]];
@@ -370,11 +434,20 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
             _ => {}
         }
         let sides = |k: usize, size: u32| {
-            let (lo, hi) = (xy.iter().map(|c| c[k]).min().unwrap_or(0), xy.iter().map(|c| c[k]).max().unwrap_or(0));
+            let (lo, hi) = (
+                xy.iter().map(|c| c[k]).min().unwrap_or(0),
+                xy.iter().map(|c| c[k]).max().unwrap_or(0),
+            );
             hi >= 0 && i64::from(lo) <= i64::from(size) * STEPS
         };
         if sides(0, view.width) && sides(1, view.height) {
-            out.push(ScreenTriangle { xy, inverse_z: fan.map(|c| 1.0 / c.at[2].max(near)), rgba: fan.map(|c| c.rgba), flat, opaque });
+            out.push(ScreenTriangle {
+                xy,
+                inverse_z: fan.map(|c| 1.0 / c.at[2].max(near)),
+                rgba: fan.map(|c| c.rgba),
+                flat,
+                opaque,
+            });
         }
     }
 }
@@ -387,7 +460,11 @@ fn cut(polygon: &[Corner], plane: &dyn Fn(Vec3) -> f64) -> Vec<Corner> {
         let a = polygon[(i + polygon.len() - 1) % polygon.len()];
         let (da, db) = (plane(a.at), plane(b.at));
         if (da >= 0.0) != (db >= 0.0) {
-            let (inner, outer, t) = if da >= 0.0 { (a, b, da / (da - db)) } else { (b, a, db / (db - da)) };
+            let (inner, outer, t) = if da >= 0.0 {
+                (a, b, da / (da - db))
+            } else {
+                (b, a, db / (db - da))
+            };
             out.push(Corner {
                 at: std::array::from_fn(|k| inner.at[k] + t * (outer.at[k] - inner.at[k])),
                 rgba: std::array::from_fn(|k| inner.rgba[k] + t as f32 * (outer.rgba[k] - inner.rgba[k])),
@@ -426,7 +503,14 @@ mod tests {
     }
 
     fn draw(triangles: Vec<Triangle>, view: &View) -> FragmentList {
-        rasterise(&Geometry { triangles, particles: Vec::new() }, view).unwrap()
+        rasterise(
+            &Geometry {
+                triangles,
+                particles: Vec::new(),
+            },
+            view,
+        )
+        .unwrap()
     }
 
     const GLASS: [f32; 4] = [0.2, 0.4, 0.6, 0.5];
@@ -464,7 +548,10 @@ mod tests {
         let view = view(64, 64);
         // The plane z = −5 − x, on which view depth at screen slope t = x/z' is 5/(1 − t).
         let at = |x: f32, y: f32| [x, y, -5.0 - x];
-        let list = draw(vec![triangle([at(-4.0, -30.0), at(40.0, -30.0), at(-4.0, 60.0)], GLASS)], &view);
+        let list = draw(
+            vec![triangle([at(-4.0, -30.0), at(40.0, -30.0), at(-4.0, 60.0)], GLASS)],
+            &view,
+        );
         let mut seen = 0;
         let mut linear_is_off = 0;
         let depth_at = |column: f64| 5.0 / (1.0 - (column - 32.0) / view.focal);
@@ -473,7 +560,10 @@ mod tests {
             let t = (column - 32.0) / view.focal;
             for &z in list.pixel(p).view_z {
                 let expected = 5.0 / (1.0 - t);
-                assert!((f64::from(z) - expected).abs() <= 1e-3 * expected, "{z} against {expected}");
+                assert!(
+                    (f64::from(z) - expected).abs() <= 1e-3 * expected,
+                    "{z} against {expected}"
+                );
                 let linear = depth_at(0.5) + (depth_at(63.5) - depth_at(0.5)) * (column - 0.5) / 63.0;
                 linear_is_off += usize::from((linear - expected).abs() > 1e-3 * expected);
                 seen += 1;
@@ -485,8 +575,22 @@ mod tests {
     #[test]
     fn opaque_surfaces_hide_what_is_strictly_behind_them() {
         let view = view(8, 8);
-        let plane = |z: f32, alpha: f32| triangle([[-99.0, -99.0, -z], [99.0, -99.0, -z], [0.0, 199.0, -z]], [0.5, 0.5, 0.5, alpha]);
-        let list = draw(vec![plane(4.0, 0.5), plane(3.0, 1.0), plane(2.0, 0.25), plane(3.5, 1.0), plane(3.0, 0.75)], &view);
+        let plane = |z: f32, alpha: f32| {
+            triangle(
+                [[-99.0, -99.0, -z], [99.0, -99.0, -z], [0.0, 199.0, -z]],
+                [0.5, 0.5, 0.5, alpha],
+            )
+        };
+        let list = draw(
+            vec![
+                plane(4.0, 0.5),
+                plane(3.0, 1.0),
+                plane(2.0, 0.25),
+                plane(3.5, 1.0),
+                plane(3.0, 0.75),
+            ],
+            &view,
+        );
         for p in 0..list.pixels() {
             assert_eq!(list.pixel(p).alpha, [1.0, 0.25, 0.75], "pixel {p}");
         }
@@ -497,13 +601,22 @@ mod tests {
     #[test]
     fn a_surface_through_the_near_plane_is_cut_there() {
         let view = view(16, 16);
-        let list = draw(vec![triangle([[-50.0, -1.0, 5.0], [50.0, -1.0, 5.0], [0.0, -1.0, -50.0]], GLASS)], &view);
+        let list = draw(
+            vec![triangle(
+                [[-50.0, -1.0, 5.0], [50.0, -1.0, 5.0], [0.0, -1.0, -50.0]],
+                GLASS,
+            )],
+            &view,
+        );
         assert!(!list.is_empty());
         // The floor y = −1 is seen below the horizon only, at depth 1/slope.
         for p in 0..list.pixels() {
             let slope = ((p / 16) as f64 + 0.5 - 8.0) / view.focal;
             for &z in list.pixel(p).view_z {
-                assert!(slope > 0.0 && (f64::from(z) * slope - 1.0).abs() < 0.02, "{z} at {slope}");
+                assert!(
+                    slope > 0.0 && (f64::from(z) * slope - 1.0).abs() < 0.02,
+                    "{z} at {slope}"
+                );
             }
         }
     }

@@ -48,7 +48,11 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Device<FUSED, RO
     /// As the nearest single-precision number.
     fn settled(self) -> f32 {
         let x = self.0 as f32;
-        if FLUSHED && x.is_subnormal() { 0.0f32.copysign(x) } else { x }
+        if FLUSHED && x.is_subnormal() {
+            0.0f32.copysign(x)
+        } else {
+            x
+        }
     }
 
     fn single(x: f32) -> Self {
@@ -85,7 +89,11 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Add for Device<F
     fn add(self, other: Self) -> Self {
         // Of two products only one can be fused. A product of two f32 is exact in f64, and its sum with an f32 rounds in f64 first, which a single rounding to f32
         // undoes but for ties of one in 2^28.
-        let b = if f64::from(self.0 as f32) == self.0 { other.0 } else { f64::from(other.settled()) };
+        let b = if f64::from(self.0 as f32) == self.0 {
+            other.0
+        } else {
+            f64::from(other.settled())
+        };
         Self::rounded(self.0 + b)
     }
 }
@@ -170,7 +178,12 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Real for Device<
     fn ln(self) -> Self {
         let x = self.settled();
         let near_one = (0.5..=2.0).contains(&x);
-        Self::off(libm::log(x.into()), (x, 1.0), if near_one { 0.0 } else { 3.0 }, if near_one { libm::exp2(-21.0) } else { 0.0 })
+        Self::off(
+            libm::log(x.into()),
+            (x, 1.0),
+            if near_one { 0.0 } else { 3.0 },
+            if near_one { libm::exp2(-21.0) } else { 0.0 },
+        )
     }
 
     fn sqrt(self) -> Self {
@@ -205,7 +218,11 @@ mod tests {
 
     fn numbers(count: usize) -> Vec<f32> {
         let mut rng = stream(1, 701, 0);
-        (0..count).map(|_| libm::pow(10.0, rng.random_range(-6.0..6.0)) as f32 * if rng.random::<bool>() { 1.0 } else { -1.0 }).collect()
+        (0..count)
+            .map(|_| {
+                libm::pow(10.0, rng.random_range(-6.0..6.0)) as f32 * if rng.random::<bool>() { 1.0 } else { -1.0 }
+            })
+            .collect()
     }
 
     /// Without any of the three it is f32, bit for bit; functions are the correctly rounded ones.
@@ -214,7 +231,13 @@ mod tests {
         for pair in numbers(40_000).chunks_exact(2) {
             let (a, b) = (pair[0], pair[1]);
             let (x, y) = (Plain::from_f32(a), Plain::from_f32(b));
-            for (found, expected) in [(x + y, a + b), (x - y, a - b), (x * y, a * b), (x / y, a / b), (x.abs().sqrt(), a.abs().sqrt())] {
+            for (found, expected) in [
+                (x + y, a + b),
+                (x - y, a - b),
+                (x * y, a * b),
+                (x / y, a / b),
+                (x.abs().sqrt(), a.abs().sqrt()),
+            ] {
                 assert_eq!(found.to_f64() as f32, expected, "{a} {b}");
             }
             assert_eq!((x < y, x.max(y).to_f64() as f32), (a < b, a.max(b)));
@@ -247,7 +270,11 @@ mod tests {
         for a in numbers(20_000) {
             let x = Rough::from_f32(a.abs());
             let (exact, found) = (libm::log(a.abs().into()), x.ln().to_f64());
-            let allowed = if (0.5..=2.0).contains(&a.abs()) { libm::exp2(-21.0) } else { 3.0 * ulp(exact) };
+            let allowed = if (0.5..=2.0).contains(&a.abs()) {
+                libm::exp2(-21.0)
+            } else {
+                3.0 * ulp(exact)
+            };
             farthest[0] = farthest[0].max((found - exact).abs() / (allowed + 0.5 * ulp(exact)));
             assert_eq!(found, x.ln().to_f64());
             if a.abs() < 80.0 {

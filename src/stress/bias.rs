@@ -12,7 +12,9 @@ use crate::pixel::{LogWarp, MomentDepth, Pixel, ViewZ, absorbance, abuffer};
 use serde::Serialize;
 
 /// Strengths of the bias that are tried \[dimensionless\].
-pub const STRENGTHS: [f64; 17] = [1e-8, 1e-7, 2e-7, 5e-7, 1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 6e-5, 1e-4, 2e-4, 6e-4, 1e-3, 2.5e-3, 6e-3, 2e-2];
+pub const STRENGTHS: [f64; 17] = [
+    1e-8, 1e-7, 2e-7, 5e-7, 1e-6, 2e-6, 5e-6, 1e-5, 2e-5, 6e-5, 1e-4, 2e-4, 6e-4, 1e-3, 2.5e-3, 6e-3, 2e-2,
+];
 
 /// What keeps the moments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -72,7 +74,11 @@ pub fn points(pixels: usize) -> Vec<BiasPoint> {
     for p in 0..usual.pixels() {
         abuffer::transmittance(usual.pixel(p), &mut exact[usual.range(p)]);
     }
-    let single = Case::all().into_iter().find(|c| c.name == "single").expect("there is such a case").fragments;
+    let single = Case::all()
+        .into_iter()
+        .find(|c| c.name == "single")
+        .expect("there is such a case")
+        .fragments;
     let mut points = Vec::new();
     for storage in [Kept::F32, Kept::Unorm16] {
         for moments in [4, 6, 8] {
@@ -112,7 +118,10 @@ pub fn points(pixels: usize) -> Vec<BiasPoint> {
 pub fn recommended(points: &[BiasPoint]) -> Vec<BiasPoint> {
     let mut best: Vec<BiasPoint> = Vec::new();
     for p in points.iter().filter(|p| p.nonfinite == 0 && p.single_nonfinite == 0) {
-        match best.iter_mut().find(|b| (b.moments, b.storage) == (p.moments, p.storage)) {
+        match best
+            .iter_mut()
+            .find(|b| (b.moments, b.storage) == (p.moments, p.storage))
+        {
             Some(b) if p.mse.unwrap_or(f64::INFINITY) < b.mse.unwrap_or(f64::INFINITY) => *b = *p,
             Some(_) => {}
             None => best.push(*p),
@@ -167,12 +176,18 @@ mod tests {
     fn weak_biases_fail_and_strong_ones_cost() {
         let points = points(300);
         let of = |moments, storage, strength: f64| {
-            *points.iter().find(|p| (p.moments, p.storage, p.moment_bias) == (moments, storage, strength)).expect("it is among those tried")
+            *points
+                .iter()
+                .find(|p| (p.moments, p.storage, p.moment_bias) == (moments, storage, strength))
+                .expect("it is among those tried")
         };
         assert!(of(4, Kept::F32, 1e-8).nonfinite > 0 && of(4, Kept::Unorm16, 1e-7).nonfinite > 0);
         assert!(of(4, Kept::F32, 2e-2).mse > of(4, Kept::F32, 1e-5).mse);
         let best = recommended(&points);
-        assert!(best.len() >= 4 && best.iter().all(|p| p.nonfinite + p.single_nonfinite == 0), "{best:?}");
+        assert!(
+            best.len() >= 4 && best.iter().all(|p| p.nonfinite + p.single_nonfinite == 0),
+            "{best:?}"
+        );
         assert_eq!(points.iter().filter(|p| p.published).count(), 6);
     }
 }

@@ -19,8 +19,14 @@ pub enum Classic {
 
 impl Classic {
     /// All that there are.
-    pub const ALL: [Self; 6] =
-        [Self::Power(4), Self::Power(6), Self::Power(8), Self::Trigonometric(2), Self::Trigonometric(3), Self::Trigonometric(4)];
+    pub const ALL: [Self; 6] = [
+        Self::Power(4),
+        Self::Power(6),
+        Self::Power(8),
+        Self::Trigonometric(2),
+        Self::Trigonometric(3),
+        Self::Trigonometric(4),
+    ];
 
     fn name(self) -> String {
         match self {
@@ -38,38 +44,41 @@ impl Classic {
 
     /// Four power moments kept with so many significant binary digits, rounded after every addition, at both published biases; everything else is in double precision.
     pub fn power_with_digits(digits: u32) -> [Subject<'static>; 2] {
-        [("moment-power-4, bias of f32", Bias::single_precision(4)), ("moment-power-4, bias of 16 bits", Bias::sixteen_bits(4))].map(
-            |(name, bias)| {
-                Subject::new(name, Promise::None, move |f| {
-                    let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
-                    let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|e| e.to_string())?;
-                    let z = |v: f32| warp.moment(ViewZ(v.into()));
-                    Ok(each_pixel(f, |pixel, out| {
-                        let mut b = [0.0f64; 5];
-                        for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
-                            let mut term = absorbance(alpha);
-                            for b in &mut b {
-                                *b = to_digits(*b + term, digits);
-                                term *= z(v).0;
-                            }
+        [
+            ("moment-power-4, bias of f32", Bias::single_precision(4)),
+            ("moment-power-4, bias of 16 bits", Bias::sixteen_bits(4)),
+        ]
+        .map(|(name, bias)| {
+            Subject::new(name, Promise::None, move |f| {
+                let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
+                let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|e| e.to_string())?;
+                let z = |v: f32| warp.moment(ViewZ(v.into()));
+                Ok(each_pixel(f, |pixel, out| {
+                    let mut b = [0.0f64; 5];
+                    for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
+                        let mut term = absorbance(alpha);
+                        for b in &mut b {
+                            *b = to_digits(*b + term, digits);
+                            term *= z(v).0;
                         }
-                        if b[0] == 0.0 {
-                            return out.fill(1.0);
-                        }
-                        let curve = PowerCurve::<f64, 2>::new(&b, &bias);
-                        for (out, &v) in out.iter_mut().zip(pixel.view_z) {
-                            *out = curve.transmittance(z(v), OVERESTIMATION);
-                        }
-                    }))
-                })
-            },
-        )
+                    }
+                    if b[0] == 0.0 {
+                        return out.fill(1.0);
+                    }
+                    let curve = PowerCurve::<f64, 2>::new(&b, &bias);
+                    for (out, &v) in out.iter_mut().zip(pixel.view_z) {
+                        *out = curve.transmittance(z(v), OVERESTIMATION);
+                    }
+                }))
+            })
+        })
     }
 
     fn answers<R: Real>(self, fragments: &Fragments) -> Vec<f64> {
         let (v0, v1) = fragments.context.depth_range.unwrap_or((1.0, 1.0));
         let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into()));
-        let z = |v: f32| MomentDepth(R::from_f64(warp.as_ref().map_or(f64::NAN, |w| w.moment(ViewZ(v.into())).0)).to_f64());
+        let z =
+            |v: f32| MomentDepth(R::from_f64(warp.as_ref().map_or(f64::NAN, |w| w.moment(ViewZ(v.into())).0)).to_f64());
         each_pixel(fragments, |pixel, out| match self {
             Self::Power(4) => power::<R, 2, 5>(pixel, z, out),
             Self::Power(6) => power::<R, 3, 7>(pixel, z, out),
@@ -129,9 +138,15 @@ mod tests {
     fn double_precision_is_the_method_itself() {
         let case = Case::all().into_iter().find(|c| c.name == "usual").unwrap();
         for classic in Classic::ALL {
-            let method = Subject::method(oit::parse(&classic.name()).unwrap(), None).answers(&case.fragments).unwrap();
+            let method = Subject::method(oit::parse(&classic.name()).unwrap(), None)
+                .answers(&case.fragments)
+                .unwrap();
             let off = |a: &[f64]| Errors::of(a, &method).unwrap().worst;
-            assert!(off(&classic.answers::<f64>(&case.fragments)) <= 1e-9 && off(&classic.answers::<f32>(&case.fragments)) > 1e-9, "{classic:?}");
+            assert!(
+                off(&classic.answers::<f64>(&case.fragments)) <= 1e-9
+                    && off(&classic.answers::<f32>(&case.fragments)) > 1e-9,
+                "{classic:?}"
+            );
         }
     }
 }

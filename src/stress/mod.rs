@@ -20,7 +20,7 @@ use crate::numeric::rng::stream;
 use serde::Serialize;
 
 /// A transmittance that grows with depth by no more than this is taken for rounding \[dimensionless\].
-pub const LEAST_RISE: f64 = 1e-6;
+pub const MIN_RISE: f64 = 1e-6;
 
 /// Orders, besides the given one, that a case is answered in.
 const ORDERS: u64 = 1;
@@ -99,13 +99,28 @@ impl Report {
         let mut broken = Vec::new();
         let mut hold = |promised: bool, count: u64, what: &str| {
             if promised && count > 0 {
-                broken.push(format!("{}: {}: {count} of {} answers {what}", self.method, self.case, self.fragments));
+                broken.push(format!(
+                    "{}: {}: {count} of {} answers {what}",
+                    self.method, self.case, self.fragments
+                ));
             }
         };
-        hold(self.promise != Promise::None, self.nonfinite + self.order_nonfinite, "are not finite");
+        hold(
+            self.promise != Promise::None,
+            self.nonfinite + self.order_nonfinite,
+            "are not finite",
+        );
         hold(self.promise != Promise::None, self.out_of_range, "are outside [0, 1]");
-        hold(self.promise == Promise::Ends, self.nearest_not_one, "to the nearest fragment are not 1");
-        hold(self.promise == Promise::Ends, self.single_not_one, "to a single fragment are not 1");
+        hold(
+            self.promise == Promise::Ends,
+            self.nearest_not_one,
+            "to the nearest fragment are not 1",
+        );
+        hold(
+            self.promise == Promise::Ends,
+            self.single_not_one,
+            "to a single fragment are not 1",
+        );
         broken
     }
 }
@@ -132,7 +147,12 @@ pub fn measure(case: &Case, subject: &Subject<'_>, doubles: &mut Doubles) -> Rep
             continue;
         }
         let nearest = pixel.view_z.iter().copied().fold(f32::INFINITY, f32::min);
-        let wrong = pixel.view_z.iter().zip(t).filter(|&(&v, &t)| v == nearest && t != 1.0).count() as u64;
+        let wrong = pixel
+            .view_z
+            .iter()
+            .zip(t)
+            .filter(|&(&v, &t)| v == nearest && t != 1.0)
+            .count() as u64;
         report.nearest_not_one += wrong;
         if pixel.len() == 1 {
             report.single_not_one += wrong;
@@ -145,8 +165,13 @@ pub fn measure(case: &Case, subject: &Subject<'_>, doubles: &mut Doubles) -> Rep
         }
         if let Some(double) = subject.double(f, doubles) {
             // Where the input is no number there is nothing to round.
-            let known =
-                |values: &[f64]| -> Vec<f64> { values.iter().zip(&case.exact).map(|(&v, e)| if e.is_nan() { f64::NAN } else { v }).collect() };
+            let known = |values: &[f64]| -> Vec<f64> {
+                values
+                    .iter()
+                    .zip(&case.exact)
+                    .map(|(&v, e)| if e.is_nan() { f64::NAN } else { v })
+                    .collect()
+            };
             report.approximation_mse = Errors::of(double, &case.exact).map(|e| e.mse);
             if let Some(e) = Errors::of(&answers, &known(double)) {
                 (report.worst_rounding, report.rounding_mse) = (Some(e.worst), Some(e.mse));
@@ -163,7 +188,7 @@ fn rises(view_z: &[f32], t: &[f64], report: &mut Report) {
     order.sort_by(|&a, &b| view_z[a].total_cmp(&view_z[b]));
     for w in order.windows(2) {
         let rise = t[w[1]] - t[w[0]];
-        if view_z[w[1]] > view_z[w[0]] && rise > LEAST_RISE {
+        if view_z[w[1]] > view_z[w[0]] && rise > MIN_RISE {
             report.rises += 1;
             report.greatest_rise = report.greatest_rise.max(rise);
         }
@@ -174,7 +199,9 @@ fn rises(view_z: &[f32], t: &[f64], report: &mut Report) {
 fn spread(case: &Case, subject: &Subject<'_>, answers: &[f64], report: &mut Report) {
     for round in 0..ORDERS {
         let (shuffled, order) = case.fragments.shuffled(&mut stream(round, 0x5353, 0));
-        let Ok(other) = subject.answers(&shuffled) else { continue };
+        let Ok(other) = subject.answers(&shuffled) else {
+            continue;
+        };
         for (&t, &at) in other.iter().zip(&order) {
             let before = answers[at];
             if t.is_finite() && before.is_finite() {
@@ -200,11 +227,20 @@ pub struct Errors {
 impl Errors {
     /// Of those pairs that are both finite; none where there is none.
     pub fn of(found: &[f64], exact: &[f64]) -> Option<Self> {
-        let mut errors: Vec<f64> = found.iter().zip(exact).map(|(f, e)| (f - e).abs()).filter(|e| e.is_finite()).collect();
+        let mut errors: Vec<f64> = found
+            .iter()
+            .zip(exact)
+            .map(|(f, e)| (f - e).abs())
+            .filter(|e| e.is_finite())
+            .collect();
         errors.sort_by(f64::total_cmp);
         let &worst = errors.last()?;
         let p999 = errors[(errors.len() * 999 / 1000).min(errors.len() - 1)];
-        Some(Self { worst, p999, mse: errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64 })
+        Some(Self {
+            worst,
+            p999,
+            mse: errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64,
+        })
     }
 }
 
@@ -237,26 +273,51 @@ mod tests {
         assert!(clean.order_spread < 1e-14);
         assert!(clean.broken().is_empty());
 
-        let nan = measure(&case, &exact_but("nan", |i, t| if i == 7 { f64::NAN } else { t }), &mut Doubles::default());
+        let nan = measure(
+            &case,
+            &exact_but("nan", |i, t| if i == 7 { f64::NAN } else { t }),
+            &mut Doubles::default(),
+        );
         assert_eq!((nan.nonfinite, nan.worst_error), (1, Some(0.0)));
         assert!(nan.order_nonfinite > 0 && nan.broken()[0].contains("not finite"));
 
         let beyond = measure(&case, &exact_but("beyond", |_, t| t * 1.5), &mut Doubles::default());
-        assert!(beyond.out_of_range > 0 && beyond.worst_error == Some(0.5) && beyond.nearest_not_one >= case.fragments.pixels() as u64);
-        assert!(beyond.broken().iter().any(|b| b.contains("outside [0, 1]")) && beyond.broken().iter().any(|b| b.contains("nearest")));
+        assert!(
+            beyond.out_of_range > 0
+                && beyond.worst_error == Some(0.5)
+                && beyond.nearest_not_one >= case.fragments.pixels() as u64
+        );
+        assert!(
+            beyond.broken().iter().any(|b| b.contains("outside [0, 1]"))
+                && beyond.broken().iter().any(|b| b.contains("nearest"))
+        );
 
         let rising = measure(&case, &exact_but("rising", |_, t| 1.0 - t), &mut Doubles::default());
         assert!(rising.rises > 1000 && rising.greatest_rise > 0.1);
 
-        let order = measure(&case, &exact_but("order", |i, t| t * if i % 2 == 0 { 1.0 } else { 0.9 }), &mut Doubles::default());
+        let order = measure(
+            &case,
+            &exact_but("order", |i, t| t * if i % 2 == 0 { 1.0 } else { 0.9 }),
+            &mut Doubles::default(),
+        );
         assert!(order.order_spread > 0.05);
 
-        let single =
-            measure(&super::tests::case("single"), &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-15 } else { t }), &mut Doubles::default());
+        let single = measure(
+            &super::tests::case("single"),
+            &exact_but("single", |i, t| if i == 3 { 1.0 - 1e-15 } else { t }),
+            &mut Doubles::default(),
+        );
         assert_eq!((single.single_not_one, single.nearest_not_one), (1, 1));
 
-        let refused = measure(&case, &Subject::new("none", Promise::Ends, |_| Err("no".to_owned())), &mut Doubles::default());
-        assert_eq!((refused.refused.as_deref(), refused.worst_error, refused.broken().len()), (Some("no"), None, 0));
+        let refused = measure(
+            &case,
+            &Subject::new("none", Promise::Ends, |_| Err("no".to_owned())),
+            &mut Doubles::default(),
+        );
+        assert_eq!(
+            (refused.refused.as_deref(), refused.worst_error, refused.broken().len()),
+            (Some("no"), None, 0)
+        );
     }
 
     /// Root mean square errors of T that the recommended network may have, in one pass and after a prepass: what was measured, and a tenth more.
@@ -284,7 +345,8 @@ mod tests {
     ];
 
     fn recommended() -> crate::model::Mlp {
-        crate::model::file::load(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models/recommended.json")).unwrap()
+        crate::model::file::load(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models/recommended.json"))
+            .unwrap()
     }
 
     /// Every case within its measured bound, every promise kept: as `nmt predict` computes, after a prepass, and as the least exact device that WGSL allows; after a
@@ -293,15 +355,29 @@ mod tests {
     fn every_case_stays_within_its_bound() {
         use subject::Arithmetic;
         let mlp = recommended();
-        let pixel = Execution { frame: crate::features::MomentFrame::Pixel, ..Execution::default() };
-        let worst = Execution { arithmetic: Arithmetic::Worst, ..Execution::default() };
-        let coarse = Execution { storage: crate::features::Storage::F16, ..Execution::default() };
-        let [one_pass, prepass, worst, coarse] = [Execution::default(), pixel, worst, coarse].map(|e| Subject::network(&mlp, e).unwrap());
+        let pixel = Execution {
+            frame: crate::features::MomentFrame::Pixel,
+            ..Execution::default()
+        };
+        let worst = Execution {
+            arithmetic: Arithmetic::Worst,
+            ..Execution::default()
+        };
+        let coarse = Execution {
+            storage: crate::features::Storage::F16,
+            ..Execution::default()
+        };
+        let [one_pass, prepass, worst, coarse] =
+            [Execution::default(), pixel, worst, coarse].map(|e| Subject::network(&mlp, e).unwrap());
         let mut broken = 0;
         for case in Case::all() {
             let mut doubles = Doubles::default();
             let of = |subject: &Subject<'_>, doubles: &mut Doubles| measure(&case, subject, doubles);
-            let (a, b, c) = (of(&one_pass, &mut doubles), of(&prepass, &mut doubles), of(&worst, &mut doubles));
+            let (a, b, c) = (
+                of(&one_pass, &mut doubles),
+                of(&prepass, &mut doubles),
+                of(&worst, &mut doubles),
+            );
             for report in [&a, &b, &c] {
                 assert_eq!(report.broken(), Vec::<String>::new());
             }
@@ -309,11 +385,29 @@ mod tests {
                 assert!(a.refused.is_some_and(|why| why.contains("must")) && c.refused.is_none());
                 continue;
             }
-            let &(_, bound, bound_after) = BOUNDS.iter().find(|b| b.0 == case.name).unwrap_or_else(|| panic!("{} has no bound", case.name));
+            let &(_, bound, bound_after) = BOUNDS
+                .iter()
+                .find(|b| b.0 == case.name)
+                .unwrap_or_else(|| panic!("{} has no bound", case.name));
             let rms = |r: &Report| r.mse.unwrap().sqrt();
-            println!("{}: {:.2e} of {bound:.2e}, after a prepass {:.2e} of {bound_after:.2e}", case.name, rms(&a), rms(&b));
-            assert!(rms(&a) <= bound && rms(&b) <= bound_after, "{}: {} {}", case.name, rms(&a), rms(&b));
-            assert!(b.mse.unwrap() <= 1.01 * b.approximation_mse.unwrap() + 1e-10, "{}: {b:?}", case.name);
+            println!(
+                "{}: {:.2e} of {bound:.2e}, after a prepass {:.2e} of {bound_after:.2e}",
+                case.name,
+                rms(&a),
+                rms(&b)
+            );
+            assert!(
+                rms(&a) <= bound && rms(&b) <= bound_after,
+                "{}: {} {}",
+                case.name,
+                rms(&a),
+                rms(&b)
+            );
+            assert!(
+                b.mse.unwrap() <= 1.01 * b.approximation_mse.unwrap() + 1e-10,
+                "{}: {b:?}",
+                case.name
+            );
             if case.name == "pair" {
                 assert!([&a, &b, &c].iter().all(|r| r.worst_error.unwrap() <= 1e-5));
             }
@@ -328,7 +422,10 @@ mod tests {
     fn thin_pixels_lose_no_more_than_they_must() {
         use crate::features::MomentFrame;
         let mlp = recommended();
-        let prepass = Execution { frame: MomentFrame::Pixel, ..Execution::default() };
+        let prepass = Execution {
+            frame: MomentFrame::Pixel,
+            ..Execution::default()
+        };
         let subjects = [
             Subject::network(&mlp, Execution::default()).unwrap(),
             Subject::network(&mlp, prepass).unwrap(),
@@ -337,7 +434,11 @@ mod tests {
         for half in [0.5, 0.07, 0.02, 1e-3, 1e-6] {
             let points = sweep::points("half_range", half, &sweep::of_half_range(half, 500), &subjects);
             let (added, added_after) = (points[0].added().unwrap(), points[1].added().unwrap());
-            println!("half-range {half}: {:.1} % in one pass, {:.3} % after a prepass", 100.0 * added, 100.0 * added_after);
+            println!(
+                "half-range {half}: {:.1} % in one pass, {:.3} % after a prepass",
+                100.0 * added,
+                100.0 * added_after
+            );
             assert!(added_after.abs() <= 0.01);
             if half >= 0.07 {
                 assert!(added <= 0.1, "{half}: {added}");
@@ -346,7 +447,14 @@ mod tests {
         }
         let coarse = |digits| {
             let subjects = [subject::with_digits(&mlp, digits, MomentFrame::Scene)];
-            sweep::points("storage_digits", digits.into(), &sweep::of_half_range(0.07, 500), &subjects)[0].added().unwrap()
+            sweep::points(
+                "storage_digits",
+                digits.into(),
+                &sweep::of_half_range(0.07, 500),
+                &subjects,
+            )[0]
+            .added()
+            .unwrap()
         };
         assert!(coarse(16) > 0.1 && coarse(32) < 0.01, "{} {}", coarse(16), coarse(32));
     }

@@ -55,8 +55,12 @@ impl Chart<'_> {
     pub fn svg(&self) -> Result<Option<String>, String> {
         let all = || self.lines.iter().flat_map(|l| &l.points).copied();
         let bound = |of: fn((f64, f64)) -> f64, pick: fn(f64, f64) -> f64| all().map(of).reduce(pick);
-        let (Some(left), Some(right)) = (bound(|p| p.0, f64::min), bound(|p| p.0, f64::max)) else { return Ok(None) };
-        let (Some(low), Some(high)) = (bound(|p| p.1, f64::min), bound(|p| p.1, f64::max)) else { return Ok(None) };
+        let (Some(left), Some(right)) = (bound(|p| p.0, f64::min), bound(|p| p.0, f64::max)) else {
+            return Ok(None);
+        };
+        let (Some(low), Some(high)) = (bound(|p| p.1, f64::min), bound(|p| p.1, f64::max)) else {
+            return Ok(None);
+        };
         // Whole powers of ten, one at least.
         let decade = |v: f64, round: fn(f64) -> f64| libm::exp10(round(libm::log10(v)));
         let (low, high) = (decade(low.max(FLOOR), f64::floor), decade(high.max(FLOOR), f64::ceil));
@@ -88,7 +92,13 @@ impl Chart<'_> {
             .x_label_area_size(42)
             .y_label_area_size(64)
             .build_cartesian_2d(x, y)?;
-        let number = |v: &f64| if (0.01..=9999.0).contains(v) { format!("{v}") } else { format!("{v:.0e}") };
+        let number = |v: &f64| {
+            if (0.01..=9999.0).contains(v) {
+                format!("{v}")
+            } else {
+                format!("{v:.0e}")
+            }
+        };
         chart
             .configure_mesh()
             .x_desc(self.x)
@@ -107,9 +117,16 @@ impl Chart<'_> {
                 bases.push(base(line));
                 bases.len() - 1
             });
-            let style = ShapeStyle { color: COLORS[of % COLORS.len()].to_rgba(), filled: false, stroke_width: 2 };
+            let style = ShapeStyle {
+                color: COLORS[of % COLORS.len()].to_rgba(),
+                filled: false,
+                stroke_width: 2,
+            };
             // Solid, dashed in another way of being run, dotted where colours come again.
-            let dash = match (self.lines[..i].iter().any(|before| base(before) == base(line)), of >= COLORS.len()) {
+            let dash = match (
+                self.lines[..i].iter().any(|before| base(before) == base(line)),
+                of >= COLORS.len(),
+            ) {
                 (false, false) => None,
                 (true, _) => Some((9, 5)),
                 (false, true) => Some((2, 4)),
@@ -127,7 +144,11 @@ impl Chart<'_> {
                     right.draw(&plotters::element::DashedPathElement::new(sample, size, spacing, style))?;
                 }
             }
-            chart.draw_series(line.marked.iter().map(|&(x, y)| Cross::new((x, y.max(FLOOR)), 4, style)))?;
+            chart.draw_series(
+                line.marked
+                    .iter()
+                    .map(|&(x, y)| Cross::new((x, y.max(FLOOR)), 4, style)),
+            )?;
             right.draw(&Text::new(line.name.clone(), (42, at - 7), ("sans-serif", 13)))?;
         }
         area.present()?;
@@ -140,20 +161,44 @@ mod tests {
     use super::*;
 
     fn line(name: &str, points: &[(f64, f64)]) -> Line {
-        Line { name: name.to_owned(), points: points.to_vec(), marked: points[..1].to_vec() }
+        Line {
+            name: name.to_owned(),
+            points: points.to_vec(),
+            marked: points[..1].to_vec(),
+        }
     }
 
     /// Every line has its name, a path and its mark. Control: a chart of fewer lines has fewer.
     #[test]
     fn charts_hold_their_lines() {
-        let lines = [line("one", &[(1e-6, 1e-3), (0.5, 2e-2)]), line("two", &[(1e-6, 0.1), (0.5, 1e-5)])];
-        let chart = |lines| Chart { title: "Error", x: "half-range", y: "MSE", log_x: true, lines };
+        let lines = [
+            line("one", &[(1e-6, 1e-3), (0.5, 2e-2)]),
+            line("two", &[(1e-6, 0.1), (0.5, 1e-5)]),
+        ];
+        let chart = |lines| Chart {
+            title: "Error",
+            x: "half-range",
+            y: "MSE",
+            log_x: true,
+            lines,
+        };
         let svg = chart(&lines).svg().unwrap().unwrap();
-        assert!(svg.starts_with("<svg") && ["one", "two", "half-range", "MSE", "Error"].iter().all(|t| svg.contains(t)));
+        assert!(
+            svg.starts_with("<svg")
+                && ["one", "two", "half-range", "MSE", "Error"]
+                    .iter()
+                    .all(|t| svg.contains(t))
+        );
         let few = chart(&lines[..1]).svg().unwrap().unwrap();
         assert!(!few.contains("two") && svg.matches("<polyline").count() > few.matches("<polyline").count());
         assert_eq!(chart(&[]).svg().unwrap(), None);
-        let linear = Chart { log_x: false, ..chart(&lines) }.svg().unwrap().unwrap();
+        let linear = Chart {
+            log_x: false,
+            ..chart(&lines)
+        }
+        .svg()
+        .unwrap()
+        .unwrap();
         assert_ne!(linear, svg);
     }
 }

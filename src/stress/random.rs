@@ -20,7 +20,7 @@ const BLOCK: usize = 1 << 14;
 const TOGETHER: usize = 32;
 
 /// Most fragments of a pixel.
-const MOST_FRAGMENTS: f64 = 300.0;
+const MAX_FRAGMENTS: f64 = 300.0;
 
 /// What a network made of many random fragments.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -76,13 +76,22 @@ impl Counts {
 ///
 /// # Errors
 /// [`MethodError`] where the network's features cannot be had of any pixel.
-pub fn hunt(mlp: &Mlp, frame: MomentFrame, fragments: u64, seed: u64, progress: &(dyn Fn(u64) + Sync)) -> Result<Counts, MethodError> {
+pub fn hunt(
+    mlp: &Mlp,
+    frame: MomentFrame,
+    fragments: u64,
+    seed: u64,
+    progress: &(dyn Fn(u64) + Sync),
+) -> Result<Counts, MethodError> {
     let method = Neural::new(mlp.clone()).with_frame(frame);
     // A block ends with the pixel that fills it.
     let blocks = fragments.div_ceil(BLOCK as u64);
     let mut counts = Counts::default();
     for first in (0..blocks).step_by(TOGETHER) {
-        let parts: Vec<Fragments> = (first..blocks.min(first + TOGETHER as u64)).into_par_iter().map(|block| block_of(seed, block)).collect();
+        let parts: Vec<Fragments> = (first..blocks.min(first + TOGETHER as u64))
+            .into_par_iter()
+            .map(|block| block_of(seed, block))
+            .collect();
         let mut whole = Fragments::none(SCENE);
         for part in &parts {
             let start = whole.len() as u64;
@@ -92,12 +101,18 @@ pub fn hunt(mlp: &Mlp, frame: MomentFrame, fragments: u64, seed: u64, progress: 
         }
         let list = whole.list().expect("depths and opacities are within their domains");
         let answered = method.answers(&list, whole.context, &|_| {})?;
-        let seen = (0..list.pixels()).into_par_iter().with_min_len(256).fold(Counts::default, |mut counts, p| {
-            counts.see(list.pixel(p).view_z, &answered.transmittance[list.range(p)]);
-            counts
-        });
+        let seen = (0..list.pixels())
+            .into_par_iter()
+            .with_min_len(256)
+            .fold(Counts::default, |mut counts, p| {
+                counts.see(list.pixel(p).view_z, &answered.transmittance[list.range(p)]);
+                counts
+            });
         let seen = seen.reduce(Counts::default, Counts::and);
-        counts = counts.and(Counts { asked: answered.tally.rows, ..seen });
+        counts = counts.and(Counts {
+            asked: answered.tally.rows,
+            ..seen
+        });
         progress(counts.fragments);
     }
     Ok(counts)
@@ -109,7 +124,7 @@ fn block_of(seed: u64, block: u64) -> Fragments {
     let warp = LogWarp::new(ViewZ(SCENE.0.into()), ViewZ(SCENE.1.into())).expect("0 < v0 < v1");
     let mut list = Fragments::none(SCENE);
     while list.len() < BLOCK {
-        let n = (libm::exp(rng.random_range(0.0..libm::log(MOST_FRAGMENTS))) as usize).max(1);
+        let n = (libm::exp(rng.random_range(0.0..libm::log(MAX_FRAGMENTS))) as usize).max(1);
         let half = libm::exp(rng.random_range(libm::log(1e-9)..0.0));
         let centre = rng.random_range(-1.0..=1.0) * (1.0 - half);
         // Some pixels hold few different depths, some one.
@@ -163,12 +178,26 @@ mod tests {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("models/{name}.json"));
             file::load(&path).unwrap()
         });
-        let random = Mlp::new("random", FeatureSet::Recentred, random_mlp(&[8, 4], 3).layers().to_vec(), Provenance::default()).unwrap();
+        let random = Mlp::new(
+            "random",
+            FeatureSet::Recentred,
+            random_mlp(&[8, 4], 3).layers().to_vec(),
+            Provenance::default(),
+        )
+        .unwrap();
         for mlp in shipped.iter().chain([&random]) {
             for frame in [MomentFrame::Scene, MomentFrame::Pixel] {
                 let found = hunt(mlp, frame, 250_000, 1, &|_| {}).unwrap();
-                assert!(found.fragments >= 250_000 && found.asked > 100_000 && found.pixels > 3000, "{found:?}");
-                let broken = (found.nonfinite, found.out_of_range, found.nearest_not_one, found.single_not_one);
+                assert!(
+                    found.fragments >= 250_000 && found.asked > 100_000 && found.pixels > 3000,
+                    "{found:?}"
+                );
+                let broken = (
+                    found.nonfinite,
+                    found.out_of_range,
+                    found.nearest_not_one,
+                    found.single_not_one,
+                );
                 assert_eq!(broken, (0, 0, 0, 0), "{} {frame:?}", mlp.name());
             }
         }
@@ -182,16 +211,31 @@ mod tests {
         let mut counts = Counts::default();
         counts.see(&[1.0, 2.0, 1.0, 3.0], &[1.0, f32::NAN, 0.5, 1.5]);
         counts.see(&[7.0], &[0.999]);
-        let expected = Counts { fragments: 5, pixels: 2, asked: 0, nonfinite: 1, out_of_range: 1, nearest_not_one: 2, single_not_one: 1 };
+        let expected = Counts {
+            fragments: 5,
+            pixels: 2,
+            asked: 0,
+            nonfinite: 1,
+            out_of_range: 1,
+            nearest_not_one: 2,
+            single_not_one: 1,
+        };
         assert_eq!(counts, expected);
     }
 
     #[test]
     fn threads_change_nothing() {
-        let mlp = Mlp::new("random", FeatureSet::Recentred, random_mlp(&[4], 3).layers().to_vec(), Provenance::default()).unwrap();
+        let mlp = Mlp::new(
+            "random",
+            FeatureSet::Recentred,
+            random_mlp(&[4], 3).layers().to_vec(),
+            Provenance::default(),
+        )
+        .unwrap();
         let run = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| hunt(&mlp, MomentFrame::Scene, 100_000, 1, &|_| {})).unwrap()
+            pool.install(|| hunt(&mlp, MomentFrame::Scene, 100_000, 1, &|_| {}))
+                .unwrap()
         };
         assert_eq!(run(1), run(3));
         assert_eq!(block_of(1, 7).view_z, block_of(1, 7).view_z);

@@ -12,8 +12,14 @@ const ROWS: usize = 20_000;
 
 /// Kinds of rows, with what they are in words.
 pub const KINDS: [(&str, &str); 4] = [
-    ("features-inside", "features of random pixels as the network was trained on"),
-    ("features-edges", "every feature at its least or greatest value of training, or as much again beyond"),
+    (
+        "features-inside",
+        "features of random pixels as the network was trained on",
+    ),
+    (
+        "features-edges",
+        "every feature at its least or greatest value of training, or as much again beyond",
+    ),
     ("features-extreme", "zeros, subnormal numbers, 1e4 and mixtures"),
     ("features-not-numbers", "features of which some are NaN or infinite"),
 ];
@@ -34,13 +40,20 @@ fn rows(mlp: &Mlp, kind: &str) -> Result<Vec<f32>, String> {
             let ends: Vec<(f32, f32)> = (0..width)
                 .map(|c| {
                     let column = || features.iter().skip(c).step_by(width).copied();
-                    (column().fold(f32::INFINITY, f32::min), column().fold(f32::NEG_INFINITY, f32::max))
+                    (
+                        column().fold(f32::INFINITY, f32::min),
+                        column().fold(f32::NEG_INFINITY, f32::max),
+                    )
                 })
                 .collect();
             for row in features.chunks_exact_mut(width) {
                 for (x, (low, high)) in row.iter_mut().zip(&ends) {
                     let beyond = if rng.random::<bool>() { high - low } else { 0.0 };
-                    *x = if rng.random::<bool>() { low - beyond } else { high + beyond };
+                    *x = if rng.random::<bool>() {
+                        low - beyond
+                    } else {
+                        high + beyond
+                    };
                 }
             }
         }
@@ -67,10 +80,17 @@ pub fn reports(mlp: &Mlp) -> Result<Vec<Report>, RowsError> {
         let double: Vec<f64> = mlp.forward_batch(&features);
         for weights in [Weights::F32, Weights::F16, Weights::Bf16, Weights::Int8] {
             let found: Vec<f64> = weights.of(mlp)?.predict(&features).into_iter().map(f64::from).collect();
-            let mut report = Report::empty(&format!("neural:{}{}", mlp.name(), weights.suffix()), kind, Promise::Range);
+            let mut report = Report::empty(
+                &format!("neural:{}{}", mlp.name(), weights.suffix()),
+                kind,
+                Promise::Range,
+            );
             report.fragments = found.len() as u64;
             report.nonfinite = found.iter().filter(|t| !t.is_finite()).count() as u64;
-            report.out_of_range = found.iter().filter(|t| t.is_finite() && !(0.0..=1.0).contains(*t)).count() as u64;
+            report.out_of_range = found
+                .iter()
+                .filter(|t| t.is_finite() && !(0.0..=1.0).contains(*t))
+                .count() as u64;
             if kind != "features-not-numbers"
                 && let Some(e) = Errors::of(&found, &double)
             {
@@ -106,9 +126,18 @@ mod tests {
         let mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/recommended.json")).unwrap();
         let reports = reports(&mlp).unwrap();
         assert_eq!(reports.len(), 16);
-        assert!(reports.iter().all(|r| r.fragments == ROWS as u64 && r.broken().is_empty()));
+        assert!(
+            reports
+                .iter()
+                .all(|r| r.fragments == ROWS as u64 && r.broken().is_empty())
+        );
         let worst = |kind: usize, format: usize| reports[4 * kind + format].worst_rounding.unwrap();
-        assert!(worst(0, 0) <= 5e-6 && worst(0, 1) <= 0.02, "{:e} {:e}", worst(0, 0), worst(0, 1));
+        assert!(
+            worst(0, 0) <= 5e-6 && worst(0, 1) <= 0.02,
+            "{:e} {:e}",
+            worst(0, 0),
+            worst(0, 1)
+        );
         assert!(worst(0, 3) > worst(0, 1) && worst(0, 1) > 10.0 * worst(0, 0));
         let edges = rows(&mlp, "features-edges").unwrap();
         let inside = rows(&mlp, "features-inside").unwrap();

@@ -45,14 +45,31 @@ pub struct Subject<'a> {
 
 impl<'a> Subject<'a> {
     /// Anything that answers fragments: `run` gets them unvalidated, and says why where it refuses them.
-    pub fn new(name: impl Into<String>, promise: Promise, run: impl Fn(&Fragments) -> Answers + Send + Sync + 'a) -> Self {
-        Self { name: name.into(), promise, transmittance: true, run: Box::new(run), double: None }
+    pub fn new(
+        name: impl Into<String>,
+        promise: Promise,
+        run: impl Fn(&Fragments) -> Answers + Send + Sync + 'a,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            promise,
+            transmittance: true,
+            run: Box::new(run),
+            double: None,
+        }
     }
 
     /// The same with what the method would answer in double precision, so that rounding can be told from approximation. Subjects whose double has the same name share
     /// its answers.
-    pub fn with_double(self, name: impl Into<String>, double: impl Fn(&Fragments) -> Answers + Send + Sync + 'a) -> Self {
-        Self { double: Some((name.into(), Box::new(double))), ..self }
+    pub fn with_double(
+        self,
+        name: impl Into<String>,
+        double: impl Fn(&Fragments) -> Answers + Send + Sync + 'a,
+    ) -> Self {
+        Self {
+            double: Some((name.into(), Box::new(double))),
+            ..self
+        }
     }
 
     /// The same with another method as the one without rounding.
@@ -69,9 +86,16 @@ impl<'a> Subject<'a> {
     /// A method, and where there is one the same method without rounding.
     pub fn method(method: Box<dyn Method>, double: Option<Box<dyn Method>>) -> Self {
         let name = method.name();
-        let promise = if name.ends_with("+own") || name == oit::abuffer::NAME { Promise::Ends } else { Promise::None };
+        let promise = if name.ends_with("+own") || name == oit::abuffer::NAME {
+            Promise::Ends
+        } else {
+            Promise::None
+        };
         let transmittance = method.weights_are_transmittance();
-        let subject = Self { transmittance, ..Self::new(name, promise, move |f| run_method(&*method, f)) };
+        let subject = Self {
+            transmittance,
+            ..Self::new(name, promise, move |f| run_method(&*method, f))
+        };
         match double {
             Some(double) => subject.with_method_as_double(double),
             None => subject,
@@ -86,9 +110,17 @@ impl<'a> Subject<'a> {
         let quantised = execution.weights.of(mlp)?;
         let name = format!("neural:{}{}", mlp.name(), execution.suffix());
         let set = mlp.feature_set();
-        let promise = if is_recentred(set) { Promise::Ends } else { Promise::Range };
+        let promise = if is_recentred(set) {
+            Promise::Ends
+        } else {
+            Promise::Range
+        };
         let subject = Self::new(name, promise, move |f| execution.run(&quantised, f));
-        Ok(Self { transmittance: set != FeatureSet::DeepWeightedBlended, ..subject }.with_network_as_double(mlp))
+        Ok(Self {
+            transmittance: set != FeatureSet::DeepWeightedBlended,
+            ..subject
+        }
+        .with_network_as_double(mlp))
     }
 
     /// Its answers.
@@ -102,7 +134,10 @@ impl<'a> Subject<'a> {
     /// Its answers without rounding, where it has such and takes the fragments; `doubles` holds those of the same fragments that are known already.
     pub fn double<'d>(&self, fragments: &Fragments, doubles: &'d mut Doubles) -> Option<&'d [f64]> {
         let (name, double) = self.double.as_ref()?;
-        let answers = doubles.0.entry(name.clone()).or_insert_with(|| checked(double(fragments), fragments));
+        let answers = doubles
+            .0
+            .entry(name.clone())
+            .or_insert_with(|| checked(double(fragments), fragments));
         answers.as_deref().ok()
     }
 }
@@ -119,7 +154,10 @@ fn checked(answers: Answers, fragments: &Fragments) -> Answers {
 }
 
 fn is_recentred(set: FeatureSet) -> bool {
-    matches!(set, FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)
+    matches!(
+        set,
+        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
+    )
 }
 
 fn run_method(method: &dyn Method, fragments: &Fragments) -> Answers {
@@ -201,14 +239,21 @@ impl Weights {
             let mut weights: Vec<f32> = dense.weights.iter().map(round).collect();
             if self == Self::Int8 {
                 for unit in 0..dense.outputs() {
-                    let greatest = (0..dense.inputs()).map(|i| dense.weight(i, unit).abs()).fold(0.0, f32::max);
+                    let greatest = (0..dense.inputs())
+                        .map(|i| dense.weight(i, unit).abs())
+                        .fold(0.0, f32::max);
                     let scale = if greatest > 0.0 { greatest / 127.0 } else { 1.0 };
                     for w in weights.iter_mut().skip(unit).step_by(dense.outputs()) {
                         *w = (*w / scale).round() * scale;
                     }
                 }
             }
-            Dense::new(dense.inputs(), dense.outputs(), weights, dense.biases.iter().map(round).collect())
+            Dense::new(
+                dense.inputs(),
+                dense.outputs(),
+                weights,
+                dense.biases.iter().map(round).collect(),
+            )
         };
         let layers = mlp.layers().iter().map(layer).collect::<Result<_, _>>()?;
         Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone())
@@ -242,11 +287,23 @@ impl Execution {
         if !is_recentred(set) {
             return [vec![usual], weights.to_vec()].concat();
         }
-        let arithmetic = [Arithmetic::Shader, Arithmetic::Fused, Arithmetic::Rough, Arithmetic::Flushed, Arithmetic::Worst];
-        let pixel = Self { frame: MomentFrame::Pixel, ..usual };
+        let arithmetic = [
+            Arithmetic::Shader,
+            Arithmetic::Fused,
+            Arithmetic::Rough,
+            Arithmetic::Flushed,
+            Arithmetic::Worst,
+        ];
+        let pixel = Self {
+            frame: MomentFrame::Pixel,
+            ..usual
+        };
         let mut all = vec![usual, pixel];
         all.extend(arithmetic.map(|arithmetic| Self { arithmetic, ..usual }));
-        all.push(Self { arithmetic: Arithmetic::Worst, ..pixel });
+        all.push(Self {
+            arithmetic: Arithmetic::Worst,
+            ..pixel
+        });
         for storage in [Storage::F16, Storage::Unorm16] {
             all.extend([Self { storage, ..usual }, Self { storage, ..pixel }]);
         }
@@ -267,15 +324,23 @@ impl Execution {
             Storage::Unorm16 => Some("unorm16"),
         });
         parts.extend(Some(self.weights.suffix().trim_start_matches(" @ ")).filter(|name| !name.is_empty()));
-        if parts.is_empty() { String::new() } else { format!(" @ {}", parts.join(", ")) }
+        if parts.is_empty() {
+            String::new()
+        } else {
+            format!(" @ {}", parts.join(", "))
+        }
     }
 
     fn run(&self, mlp: &Mlp, fragments: &Fragments) -> Answers {
         match self.arithmetic {
             Arithmetic::Usual => {
                 let list = fragments.list().map_err(|e| e.to_string())?;
-                let method = Neural::new(mlp.clone()).with_storage(self.storage).with_frame(self.frame);
-                let answers = method.transmittance(&list, fragments.context, &|_| {}).map_err(|e| e.to_string())?;
+                let method = Neural::new(mlp.clone())
+                    .with_storage(self.storage)
+                    .with_frame(self.frame);
+                let answers = method
+                    .transmittance(&list, fragments.context, &|_| {})
+                    .map_err(|e| e.to_string())?;
                 Ok(answers.into_iter().map(f64::from).collect())
             }
             Arithmetic::Shader => as_shader::<f32>(mlp, fragments, self.frame),
@@ -302,13 +367,24 @@ pub(super) fn to_digits(x: f64, digits: u32) -> f64 {
 /// Unless there are 2 to 53 digits.
 pub fn with_digits(mlp: &Mlp, digits: u32, frame: MomentFrame) -> Subject<'static> {
     assert!((2..=53).contains(&digits), "{digits} digits");
-    let name = format!("neural:{}{}", mlp.name(), if frame == MomentFrame::Pixel { " @ prepass" } else { "" });
-    let rounding = Rounding { unit: libm::exp2(1.0 - f64::from(digits)), every_addition: true };
+    let name = format!(
+        "neural:{}{}",
+        mlp.name(),
+        if frame == MomentFrame::Pixel { " @ prepass" } else { "" }
+    );
+    let rounding = Rounding {
+        unit: libm::exp2(1.0 - f64::from(digits)),
+        every_addition: true,
+    };
     let network = mlp.clone();
     Subject::new(name, Promise::Ends, move |f| {
         let (v0, v1) = f.context.depth_range.unwrap_or((1.0, 1.0));
         on_pixels(&network, f, |pixel, out| {
-            let range = if frame == MomentFrame::Pixel { ends(pixel) } else { (v0, v1) };
+            let range = if frame == MomentFrame::Pixel {
+                ends(pixel)
+            } else {
+                (v0, v1)
+            };
             let depth = LogWarp::new(ViewZ(range.0.into()), ViewZ(range.1.into()));
             let z = |v: f32| depth.as_ref().map_or(f64::NAN, |warp| warp.moment(ViewZ(v.into())).0);
             match network.feature_set().moments() {
@@ -321,7 +397,14 @@ pub fn with_digits(mlp: &Mlp, digits: u32, frame: MomentFrame) -> Subject<'stati
     .with_network_as_double(mlp)
 }
 
-fn answer_digits<const K: usize>(mlp: &Mlp, pixel: Pixel<'_>, z: impl Fn(f32) -> f64, digits: u32, rounding: Rounding<f64>, out: &mut [f64]) {
+fn answer_digits<const K: usize>(
+    mlp: &Mlp,
+    pixel: Pixel<'_>,
+    z: impl Fn(f32) -> f64,
+    digits: u32,
+    rounding: Rounding<f64>,
+    out: &mut [f64],
+) {
     let (nearest, farthest) = ends(pixel);
     let seen: Vec<Seen<f64>> = seen_by(pixel, &z);
     let mut sums = PixelSums::<f64, K>::default();
@@ -343,7 +426,11 @@ fn answer_digits<const K: usize>(mlp: &Mlp, pixel: Pixel<'_>, z: impl Fn(f32) ->
 
 /// Fragments of a pixel in double precision.
 fn seen_by(pixel: Pixel<'_>, z: impl Fn(f32) -> f64) -> Vec<Seen<f64>> {
-    let one = |(&view_z, &alpha): (&f32, &f32)| Seen { view_z, z: z(view_z), absorbance: absorbance(alpha) };
+    let one = |(&view_z, &alpha): (&f32, &f32)| Seen {
+        view_z,
+        z: z(view_z),
+        absorbance: absorbance(alpha),
+    };
     pixel.view_z.iter().zip(pixel.alpha).map(one).collect()
 }
 
@@ -388,8 +475,15 @@ impl TwoMoments {
                                 libm::exp(-others * share)
                             }
                             Self::Beta => {
-                                let row =
-                                    [x, count, log, mean, spread, mean * (1.0 - spread) / (1.0 + spread), (spread / (1.0 + 2.0 * spread)).sqrt()];
+                                let row = [
+                                    x,
+                                    count,
+                                    log,
+                                    mean,
+                                    spread,
+                                    mean * (1.0 - spread) / (1.0 + spread),
+                                    (spread / (1.0 + 2.0 * spread)).sqrt(),
+                                ];
                                 mlp.forward::<f64>(&row.map(|f| f as f32))
                             }
                         },
@@ -405,7 +499,8 @@ fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
     if !is_recentred(mlp.feature_set()) {
         let list = fragments.list().map_err(|e| e.to_string())?;
         let context = fragments.context;
-        let extractor = Extractor::for_list(mlp.feature_set(), &list, context.planes, context.depth_range).map_err(|e| e.to_string())?;
+        let extractor = Extractor::for_list(mlp.feature_set(), &list, context.planes, context.depth_range)
+            .map_err(|e| e.to_string())?;
         let look = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
         return Ok(mlp.forward_batch(&look.features));
     }
@@ -419,7 +514,11 @@ fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
 
 /// What the exported shader computes, operation by operation, in arithmetic `R`: pass 1, what is known of each fragment, the network.
 fn as_shader<R: Real>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) -> Answers {
-    let whole = fragments.context.depth_range.or_else(|| fragments.list().ok().and_then(|list| list.depth_range())).unwrap_or((1.0, 1.0));
+    let whole = fragments
+        .context
+        .depth_range
+        .or_else(|| fragments.list().ok().and_then(|list| list.depth_range()))
+        .unwrap_or((1.0, 1.0));
     on_pixels(mlp, fragments, |pixel, out| {
         let (nearest, farthest) = ends(pixel);
         let range = match frame {
@@ -427,18 +526,33 @@ fn as_shader<R: Real>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) -> A
             MomentFrame::Pixel => [nearest, farthest],
         };
         let z = |v: f32| recentred::moment_depth::<R>(v, range);
-        answer_pixel::<R>(mlp, pixel, [z(nearest), z(farthest)], z, |alpha| recentred::absorbance(R::from_f32(alpha)), out);
+        answer_pixel::<R>(
+            mlp,
+            pixel,
+            [z(nearest), z(farthest)],
+            z,
+            |alpha| recentred::absorbance(R::from_f32(alpha)),
+            out,
+        );
     })
 }
 
 /// Least and greatest view depth, as a prepass keeps them.
 fn ends(pixel: Pixel<'_>) -> (f32, f32) {
-    pixel.view_z.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
+    pixel
+        .view_z
+        .iter()
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &v| {
+            (lo.min(v), hi.max(v))
+        })
 }
 
 fn on_pixels(mlp: &Mlp, fragments: &Fragments, answer: impl Fn(Pixel<'_>, &mut [f64]) + Sync) -> Answers {
     if !is_recentred(mlp.feature_set()) {
-        return Err(format!("the features of '{}' are computed in one way only", mlp.feature_set().name()));
+        return Err(format!(
+            "the features of '{}' are computed in one way only",
+            mlp.feature_set().name()
+        ));
     }
     Ok(each_pixel(fragments, answer))
 }
@@ -453,12 +567,21 @@ pub(super) fn each_pixel(fragments: &Fragments, answer: impl Fn(Pixel<'_>, &mut 
         rest = others;
         jobs.push((p, own));
     }
-    jobs.into_par_iter().with_min_len(16).for_each(|(p, out)| answer(fragments.pixel(p), out));
+    jobs.into_par_iter()
+        .with_min_len(16)
+        .for_each(|(p, out)| answer(fragments.pixel(p), out));
     out
 }
 
 /// Both passes over a pixel.
-fn answer_pixel<R: Real>(mlp: &Mlp, pixel: Pixel<'_>, ends: [R; 2], z: impl Fn(f32) -> R, absorbance: impl Fn(f32) -> R, out: &mut [f64]) {
+fn answer_pixel<R: Real>(
+    mlp: &Mlp,
+    pixel: Pixel<'_>,
+    ends: [R; 2],
+    z: impl Fn(f32) -> R,
+    absorbance: impl Fn(f32) -> R,
+    out: &mut [f64],
+) {
     match mlp.feature_set().moments() {
         4 => answer_of::<R, 4>(mlp, pixel, ends, z, absorbance, out),
         6 => answer_of::<R, 6>(mlp, pixel, ends, z, absorbance, out),
@@ -474,8 +597,16 @@ fn answer_of<R: Real, const K: usize>(
     absorbance: impl Fn(f32) -> R,
     out: &mut [f64],
 ) {
-    let seen: Vec<Seen<R>> =
-        pixel.view_z.iter().zip(pixel.alpha).map(|(&view_z, &alpha)| Seen { view_z, z: z(view_z), absorbance: absorbance(alpha) }).collect();
+    let seen: Vec<Seen<R>> = pixel
+        .view_z
+        .iter()
+        .zip(pixel.alpha)
+        .map(|(&view_z, &alpha)| Seen {
+            view_z,
+            z: z(view_z),
+            absorbance: absorbance(alpha),
+        })
+        .collect();
     let mut sums = PixelSums::<R, K>::default();
     seen.iter().for_each(|&s| sums.add(s));
     for (out, &s) in out.iter_mut().zip(&seen) {

@@ -12,7 +12,9 @@ use serde::Serialize;
 const SEED: u64 = 0x7377;
 
 /// Half-ranges of pixels in moment depth \[dimensionless\].
-pub const HALF_RANGES: [f64; 18] = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6];
+pub const HALF_RANGES: [f64; 18] = [
+    0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6,
+];
 
 /// Numbers of fragments.
 pub const COUNTS: [u32; 11] = [3, 4, 6, 8, 16, 32, 64, 128, 256, 1024, 4096];
@@ -54,9 +56,17 @@ impl Point {
 fn pixels(change: impl Fn(&mut crate::synth::config::PixelLaw), count: usize) -> Fragments {
     let mut config = SynthConfig::wide();
     config.pixels.iter_mut().for_each(change);
-    let list = Synth::new(config, SEED).expect("ranges within those of valid laws").pixels(Purpose::Evaluation, 0, count);
+    let list = Synth::new(config, SEED)
+        .expect("ranges within those of valid laws")
+        .pixels(Purpose::Evaluation, 0, count);
     let planes = list.planes();
-    Fragments::of_list(&list, Context { planes, depth_range: planes.map(|p| (p.near(), p.far())) })
+    Fragments::of_list(
+        &list,
+        Context {
+            planes,
+            depth_range: planes.map(|p| (p.near(), p.far())),
+        },
+    )
 }
 
 /// Pixels of one half-range of moment depth.
@@ -64,7 +74,9 @@ pub fn of_half_range(half: f64, count: usize) -> Fragments {
     pixels(
         |law| {
             if !matches!(law.depth, DepthLaw::Window { .. }) {
-                law.range = Some(PixelRange { half: Range { min: half, max: half } });
+                law.range = Some(PixelRange {
+                    half: Range { min: half, max: half },
+                });
             }
         },
         count,
@@ -73,7 +85,16 @@ pub fn of_half_range(half: f64, count: usize) -> Fragments {
 
 /// Pixels of one number of fragments.
 pub fn of_count(n: u32, count: usize) -> Fragments {
-    pixels(|law| law.fragments = FragmentCount { min: n, max: n, law: CountLaw::Uniform }, count)
+    pixels(
+        |law| {
+            law.fragments = FragmentCount {
+                min: n,
+                max: n,
+                law: CountLaw::Uniform,
+            }
+        },
+        count,
+    )
 }
 
 /// Pixels as networks are trained on.

@@ -4,7 +4,7 @@ use crate::pixel::CameraPlanes;
 use serde::{Deserialize, Serialize};
 
 /// Most fragments, and most clusters of them, that a pixel may be configured to have.
-pub const MOST_FRAGMENTS: u32 = 1 << 16;
+pub const MAX_FRAGMENTS: u32 = 1 << 16;
 
 /// The greatest weight of one law.
 pub const GREATEST_WEIGHT: f64 = 1e9;
@@ -235,10 +235,14 @@ pub enum SynthError {
         max: f64,
     },
     /// A law in moment depth has no range.
-    #[error("{0}.range: is missing, and this depth law needs it; add, say, range = {{ half = {{ min = 0.02, max = 1.0 }} }}")]
+    #[error(
+        "{0}.range: is missing, and this depth law needs it; add, say, range = {{ half = {{ min = 0.02, max = 1.0 }} }}"
+    )]
     MissingRange(String),
     /// Window depths were given a range in moment depth.
-    #[error("{0}.range: does not apply to the depth law 'window', whose own min and max say where fragments lie; remove it")]
+    #[error(
+        "{0}.range: does not apply to the depth law 'window', whose own min and max say where fragments lie; remove it"
+    )]
     UnusedRange(String),
     /// The camera's planes are invalid.
     #[error("synth.camera: {0}")]
@@ -255,9 +259,21 @@ impl SynthConfig {
             camera: CameraPlanes::new(0.1, 100.0).expect("0 < near < far"),
             pixels: vec![PixelLaw {
                 weight: 1.0,
-                fragments: FragmentCount { min: 2, max: 32, law: CountLaw::Uniform },
-                depth: DepthLaw::Window { min: 0.3, max: 1.0, reading: DepthReading::PerFragment },
-                alpha: AlphaLaw::Uniform { min: 0.1, max: 0.5, reading: AlphaReading::PerFragment },
+                fragments: FragmentCount {
+                    min: 2,
+                    max: 32,
+                    law: CountLaw::Uniform,
+                },
+                depth: DepthLaw::Window {
+                    min: 0.3,
+                    max: 1.0,
+                    reading: DepthReading::PerFragment,
+                },
+                alpha: AlphaLaw::Uniform {
+                    min: 0.1,
+                    max: 0.5,
+                    reading: AlphaReading::PerFragment,
+                },
                 range: None,
             }],
         }
@@ -294,7 +310,11 @@ impl SynthConfig {
 impl PixelLaw {
     fn validate(&self, at: &str) -> Result<(), SynthError> {
         if !(self.weight > 0.0 && self.weight <= GREATEST_WEIGHT) {
-            return Err(number(format!("{at}.weight"), self.weight, format!("be greater than 0 and at most {GREATEST_WEIGHT:e}")));
+            return Err(number(
+                format!("{at}.weight"),
+                self.weight,
+                format!("be greater than 0 and at most {GREATEST_WEIGHT:e}"),
+            ));
         }
         let FragmentCount { min, max, law: _ } = self.fragments;
         count(&format!("{at}.fragments"), CountRange { min, max })?;
@@ -321,7 +341,9 @@ impl DepthLaw {
             Self::Paired { gap } => above_zero(&format!("{at}.gap"), gap),
             Self::Beta { a, b } => {
                 let must = format!("lie in [{}, {}]", BETA_SHAPES.start(), BETA_SHAPES.end());
-                [("a", a), ("b", b)].into_iter().try_for_each(|(name, r)| within(&format!("{at}.{name}"), r, |x| BETA_SHAPES.contains(&x), &must))
+                [("a", a), ("b", b)]
+                    .into_iter()
+                    .try_for_each(|(name, r)| within(&format!("{at}.{name}"), r, |x| BETA_SHAPES.contains(&x), &must))
             }
         }
     }
@@ -341,7 +363,11 @@ impl AlphaLaw {
 }
 
 fn number(field: String, value: f64, must: impl Into<String>) -> SynthError {
-    SynthError::Number { field, value, must: must.into() }
+    SynthError::Number {
+        field,
+        value,
+        must: must.into(),
+    }
 }
 
 /// min and max in a domain, and in order.
@@ -352,7 +378,11 @@ fn within(at: &str, Range { min, max }: Range, domain: impl Fn(f64) -> bool, mus
         }
     }
     if min > max {
-        return Err(SynthError::Inverted { field: at.to_owned(), min, max });
+        return Err(SynthError::Inverted {
+            field: at.to_owned(),
+            min,
+            max,
+        });
     }
     Ok(())
 }
@@ -367,8 +397,16 @@ fn above_zero(at: &str, range: Range) -> Result<(), SynthError> {
 }
 
 fn count(at: &str, CountRange { min, max }: CountRange) -> Result<(), SynthError> {
-    let must = format!("be from 1 to {MOST_FRAGMENTS}");
-    within(at, Range { min: min.into(), max: max.into() }, |x| (1.0..=f64::from(MOST_FRAGMENTS)).contains(&x), &must)
+    let must = format!("be from 1 to {MAX_FRAGMENTS}");
+    within(
+        at,
+        Range {
+            min: min.into(),
+            max: max.into(),
+        },
+        |x| (1.0..=f64::from(MAX_FRAGMENTS)).contains(&x),
+        &must,
+    )
 }
 
 #[cfg(test)]
@@ -389,7 +427,12 @@ mod tests {
     }
 
     fn law(depth: &str, alpha: &str) -> PixelLaw {
-        let config = parse(&[("depth", depth), ("alpha", alpha), ("range", "range = { half = { min = 0.1, max = 0.9 } }")]).unwrap();
+        let config = parse(&[
+            ("depth", depth),
+            ("alpha", alpha),
+            ("range", "range = { half = { min = 0.1, max = 0.9 } }"),
+        ])
+        .unwrap();
         config.validate().unwrap();
         config.pixels[0]
     }
@@ -413,36 +456,68 @@ mod tests {
             ("depth = { law = 'uniform' }", DepthLaw::Uniform {}),
             (
                 "depth = { law = 'clustered', clusters = { min = 1, max = 6 }, width = { min = 1e-3, max = 0.3 } }",
-                DepthLaw::Clustered { clusters: CountRange { min: 1, max: 6 }, width: range(1e-3, 0.3) },
+                DepthLaw::Clustered {
+                    clusters: CountRange { min: 1, max: 6 },
+                    width: range(1e-3, 0.3),
+                },
             ),
-            ("depth = { law = 'paired', gap = { min = 1e-3, max = 1 } }", DepthLaw::Paired { gap: range(1e-3, 1.0) }),
+            (
+                "depth = { law = 'paired', gap = { min = 1e-3, max = 1 } }",
+                DepthLaw::Paired { gap: range(1e-3, 1.0) },
+            ),
             (
                 "depth = { law = 'beta', a = { min = 0.3, max = 5 }, b = { min = 1, max = 2 } }",
-                DepthLaw::Beta { a: range(0.3, 5.0), b: range(1.0, 2.0) },
+                DepthLaw::Beta {
+                    a: range(0.3, 5.0),
+                    b: range(1.0, 2.0),
+                },
             ),
         ];
         let alphas = [
             (
                 "alpha = { law = 'uniform', min = 0, max = 1, reading = 'per-pixel' }",
-                AlphaLaw::Uniform { min: 0.0, max: 1.0, reading: AlphaReading::PerPixel },
+                AlphaLaw::Uniform {
+                    min: 0.0,
+                    max: 1.0,
+                    reading: AlphaReading::PerPixel,
+                },
             ),
             (
                 "alpha = { law = 'log-uniform', min = 0.01, max = 1, reading = 'per-object' }",
-                AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerObject },
+                AlphaLaw::LogUniform {
+                    min: 0.01,
+                    max: 1.0,
+                    reading: AlphaReading::PerObject,
+                },
             ),
-            ("alpha = { law = 'subrange', min = 0, max = 1 }", AlphaLaw::Subrange { min: 0.0, max: 1.0 }),
+            (
+                "alpha = { law = 'subrange', min = 0, max = 1 }",
+                AlphaLaw::Subrange { min: 0.0, max: 1.0 },
+            ),
             (
                 "alpha = { law = 'near-opaque', share = { min = 0, max = 0.5 }, low = { min = 0.01, max = 0.5 } }",
-                AlphaLaw::NearOpaque { share: range(0.0, 0.5), low: range(0.01, 0.5) },
+                AlphaLaw::NearOpaque {
+                    share: range(0.0, 0.5),
+                    low: range(0.01, 0.5),
+                },
             ),
         ];
         for ((depth_text, depth), (alpha_text, alpha)) in depths.into_iter().zip(alphas) {
             let law = law(depth_text, alpha_text);
-            assert_eq!((law.depth, law.alpha, law.range), (depth, alpha, Some(PixelRange { half: range(0.1, 0.9) })));
+            assert_eq!(
+                (law.depth, law.alpha, law.range),
+                (depth, alpha, Some(PixelRange { half: range(0.1, 0.9) }))
+            );
         }
         for config in [SynthConfig::paper(), SynthConfig::wide()] {
-            assert_eq!(serde_json::from_value::<SynthConfig>(serde_json::to_value(&config).unwrap()).unwrap(), config);
-            assert_eq!(toml::from_str::<SynthConfig>(&toml::to_string(&config).unwrap()).unwrap(), config);
+            assert_eq!(
+                serde_json::from_value::<SynthConfig>(serde_json::to_value(&config).unwrap()).unwrap(),
+                config
+            );
+            assert_eq!(
+                toml::from_str::<SynthConfig>(&toml::to_string(&config).unwrap()).unwrap(),
+                config
+            );
         }
     }
 
@@ -451,16 +526,28 @@ mod tests {
     fn unknown_fields_are_refused() {
         let messages = [
             ("camera", "camera = { near = 0.1, far = 100.0, up = 1 }"),
-            ("camera", "camera = { near = 0.1, far = 100.0 }\nfragments = { min = 1, max = 2 }"),
+            (
+                "camera",
+                "camera = { near = 0.1, far = 100.0 }\nfragments = { min = 1, max = 2 }",
+            ),
             ("fragments", "colour = 1\nfragments = { min = 2, max = 32 }"),
             ("fragments", "fragments = { min = 2, max = 32, mean = 8 }"),
             ("depth", "depth = { min = 0.3, max = 1.0 }"),
             ("depth", "depth = { law = 'normal' }"),
             ("depth", "depth = { law = 'window', min = 0.3, max = 1.0, gap = 1 }"),
             ("depth", "depth = { law = 'uniform', min = 0.3, max = 1.0 }"),
-            ("depth", "depth = { law = 'paired', gap = { min = 0.3, max = 1.0, law = 'uniform' } }"),
-            ("alpha", "alpha = { law = 'subrange', min = 0.3, max = 1.0, reading = 'per-pixel' }"),
-            ("alpha", "alpha = { law = 'uniform', min = 0.3, max = 1.0, reading = 'per-cluster' }"),
+            (
+                "depth",
+                "depth = { law = 'paired', gap = { min = 0.3, max = 1.0, law = 'uniform' } }",
+            ),
+            (
+                "alpha",
+                "alpha = { law = 'subrange', min = 0.3, max = 1.0, reading = 'per-pixel' }",
+            ),
+            (
+                "alpha",
+                "alpha = { law = 'uniform', min = 0.3, max = 1.0, reading = 'per-cluster' }",
+            ),
             ("range", "range = { half = { min = 0.3, max = 1.0 }, centre = 0 }"),
         ]
         .map(|change| parse(&[change]).unwrap_err());
@@ -475,15 +562,36 @@ mod tests {
             change(&mut config.pixels[2]);
             config.validate().unwrap_err().to_string()
         };
-        let window = |min, max| DepthLaw::Window { min, max, reading: DepthReading::PerFragment };
-        let uniform = |min, max| AlphaLaw::Uniform { min, max, reading: AlphaReading::PerFragment };
-        let log_uniform = |min, max| AlphaLaw::LogUniform { min, max, reading: AlphaReading::PerFragment };
-        let clustered = |min, max, width| DepthLaw::Clustered { clusters: CountRange { min, max }, width };
+        let window = |min, max| DepthLaw::Window {
+            min,
+            max,
+            reading: DepthReading::PerFragment,
+        };
+        let uniform = |min, max| AlphaLaw::Uniform {
+            min,
+            max,
+            reading: AlphaReading::PerFragment,
+        };
+        let log_uniform = |min, max| AlphaLaw::LogUniform {
+            min,
+            max,
+            reading: AlphaReading::PerFragment,
+        };
+        let clustered = |min, max, width| DepthLaw::Clustered {
+            clusters: CountRange { min, max },
+            width,
+        };
         let near_opaque = |share, low| AlphaLaw::NearOpaque { share, low };
         let beta = |a, b| DepthLaw::Beta { a, b };
         insta::assert_snapshot!(
             [
-                SynthConfig { pixels: vec![], ..SynthConfig::wide() }.validate().unwrap_err().to_string(),
+                SynthConfig {
+                    pixels: vec![],
+                    ..SynthConfig::wide()
+                }
+                .validate()
+                .unwrap_err()
+                .to_string(),
                 error(&|law| law.weight = 0.0),
                 error(&|law| law.weight = -1.0),
                 error(&|law| law.weight = f64::NAN),
@@ -501,7 +609,9 @@ mod tests {
                 error(&|law| law.depth = clustered(1, 4, range(0.0, 0.1))),
                 error(&|law| law.depth = DepthLaw::Paired { gap: range(0.0, 1.0) }),
                 error(&|law| law.depth = DepthLaw::Paired { gap: range(0.2, 0.1) }),
-                error(&|law| law.depth = DepthLaw::Paired { gap: range(0.2, f64::INFINITY) }),
+                error(&|law| law.depth = DepthLaw::Paired {
+                    gap: range(0.2, f64::INFINITY)
+                }),
                 error(&|law| law.depth = beta(range(0.01, 1.0), range(1.0, 1.0))),
                 error(&|law| law.depth = beta(range(1.0, 1.0), range(1.0, f64::NAN))),
                 error(&|law| law.range = None),
@@ -514,10 +624,13 @@ mod tests {
                 error(&|law| law.alpha = AlphaLaw::Subrange { min: 0.0, max: 1.1 }),
                 error(&|law| law.alpha = near_opaque(range(0.0, 2.0), range(0.1, 0.2))),
                 error(&|law| law.alpha = near_opaque(range(0.0, 0.5), range(-0.1, 0.2))),
-                SynthConfig { camera: serde_json::from_str(r#"{"near": 2, "far": 1}"#).unwrap(), ..SynthConfig::wide() }
-                    .validate()
-                    .unwrap_err()
-                    .to_string(),
+                SynthConfig {
+                    camera: serde_json::from_str(r#"{"near": 2, "far": 1}"#).unwrap(),
+                    ..SynthConfig::wide()
+                }
+                .validate()
+                .unwrap_err()
+                .to_string(),
             ]
             .join("\n")
         );

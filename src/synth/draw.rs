@@ -13,7 +13,7 @@ use rand_distr::{Distribution, Uniform};
 use std::f64::consts::TAU;
 
 /// Most materials that the objects of a pixel are made of.
-const MOST_MATERIALS: usize = 4;
+const MAX_MATERIALS: usize = 4;
 
 /// Least opacity of a nearly opaque fragment.
 const NEARLY_OPAQUE: f64 = 0.9;
@@ -100,7 +100,11 @@ struct LogUniform {
 impl LogUniform {
     fn new(range: Range) -> Self {
         let ln_min = libm::log(range.min);
-        Self { range, ln_min, ln_ratio: libm::log(range.max) - ln_min }
+        Self {
+            range,
+            ln_min,
+            ln_ratio: libm::log(range.max) - ln_min,
+        }
     }
 
     fn draw(&self, rng: &mut Stream) -> f64 {
@@ -109,7 +113,11 @@ impl LogUniform {
 
     /// [`Self::draw`] of all these units.
     fn of_units(&self, units: &mut [f64]) {
-        let Self { range, ln_min, ln_ratio } = *self;
+        let Self {
+            range,
+            ln_min,
+            ln_ratio,
+        } = *self;
         each!(units, simd, u => {
             let splat = |x: f64| f64x8::splat(simd, x);
             doubles::exp(simd, splat(ln_min) + splat(ln_ratio) * u).max(splat(range.min)).min(splat(range.max))
@@ -125,7 +133,12 @@ fn normals(radii: &mut [f64], angles: &mut [f64]) {
     #[inline(always)]
     fn all<S: Simd>(simd: S, radii: &mut [f64], angles: &mut [f64]) {
         let splat = |x: f64| f64x8::splat(simd, x);
-        for (u, v) in radii.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(angles.as_chunks_mut::<DOUBLES>().0) {
+        for (u, v) in radii
+            .as_chunks_mut::<DOUBLES>()
+            .0
+            .iter_mut()
+            .zip(angles.as_chunks_mut::<DOUBLES>().0)
+        {
             // 1 − u is never 0.
             let r = (splat(-2.0) * doubles::ln(simd, splat(1.0) - f64x8::from_slice(simd, u))).sqrt();
             let (sin, cos) = doubles::sincos(simd, splat(TAU) * f64x8::from_slice(simd, v));
@@ -133,7 +146,10 @@ fn normals(radii: &mut [f64], angles: &mut [f64]) {
             (r * sin).store_slice(v);
         }
     }
-    assert!(radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES), "whole vectors");
+    assert!(
+        radii.len() == angles.len() && radii.len().is_multiple_of(DOUBLES),
+        "whole vectors"
+    );
     dispatch!(Level::new(), simd => all(simd, radii, angles));
 }
 
@@ -167,12 +183,22 @@ impl Ahead {
     #[inline(never)]
     fn look(&mut self, rng: &mut Stream, wanted: usize) {
         #[inline(always)]
-        fn all<S: Simd>(simd: S, Ahead { units, ln, sin, cos, .. }: &mut Ahead) {
+        fn all<S: Simd>(
+            simd: S,
+            Ahead {
+                units, ln, sin, cos, ..
+            }: &mut Ahead,
+        ) {
             let splat = |x: f64| f64x8::splat(simd, x);
             for out in [&mut *ln, sin, cos] {
                 out.resize(units.len(), 0.0);
             }
-            let outputs = ln.as_chunks_mut::<DOUBLES>().0.iter_mut().zip(sin.as_chunks_mut::<DOUBLES>().0).zip(cos.as_chunks_mut::<DOUBLES>().0);
+            let outputs = ln
+                .as_chunks_mut::<DOUBLES>()
+                .0
+                .iter_mut()
+                .zip(sin.as_chunks_mut::<DOUBLES>().0)
+                .zip(cos.as_chunks_mut::<DOUBLES>().0);
             for (u, ((ln, sin), cos)) in units.as_chunks::<DOUBLES>().0.iter().zip(outputs) {
                 let u = f64x8::from_slice(simd, u);
                 doubles::ln(simd, splat(1.0) - u).store_slice(ln);
@@ -223,7 +249,11 @@ struct Gamma {
 impl Gamma {
     fn new(a: f64) -> Self {
         let d = if a < 1.0 { a + 1.0 } else { a } - 1.0 / 3.0;
-        Self { d, c: 1.0 / (9.0 * d).sqrt(), boost: (a < 1.0).then(|| 1.0 / a) }
+        Self {
+            d,
+            c: 1.0 / (9.0 * d).sqrt(),
+            boost: (a < 1.0).then(|| 1.0 / a),
+        }
     }
 
     /// A number and the logarithm of its factor, which is 0 where there is none; `wanted` units will be taken in about all that follows.
@@ -256,7 +286,10 @@ impl Gamma {
     fn boost(&self, gammas: &mut [f64], logarithms: &mut [f64]) {
         if self.boost.is_some() {
             each!(logarithms, simd, x => doubles::exp(simd, x));
-            gammas.iter_mut().zip(logarithms).for_each(|(gamma, factor)| *gamma *= *factor);
+            gammas
+                .iter_mut()
+                .zip(logarithms)
+                .for_each(|(gamma, factor)| *gamma *= *factor);
         }
     }
 }
@@ -320,11 +353,22 @@ enum Alpha {
 impl Law {
     /// Of a validated configuration.
     pub(super) fn new(config: &PixelLaw) -> Self {
-        Self { count: Count::new(config.fragments), depth: Depth::new(config), alpha: Alpha::new(config.alpha) }
+        Self {
+            count: Count::new(config.fragments),
+            depth: Depth::new(config),
+            alpha: Alpha::new(config.alpha),
+        }
     }
 
     /// Appends one pixel.
-    pub(super) fn draw(&self, rng: &mut Stream, camera: &Camera, scratch: &mut Scratch, view_z: &mut Vec<f32>, alpha: &mut Vec<f32>) {
+    pub(super) fn draw(
+        &self,
+        rng: &mut Stream,
+        camera: &Camera,
+        scratch: &mut Scratch,
+        view_z: &mut Vec<f32>,
+        alpha: &mut Vec<f32>,
+    ) {
         let n = self.count.draw(rng);
         self.depth.draw(rng, n, camera, scratch, view_z);
         self.alpha.draw(rng, n, scratch, alpha);
@@ -342,7 +386,10 @@ impl Camera {
     /// Of validated planes.
     pub(super) fn new(planes: CameraPlanes) -> Self {
         let [near, far] = [planes.near(), planes.far()].map(|v| ViewZ(v.into()));
-        Self { planes, warp: LogWarp::new(near, far).expect("validated: 0 < near < far") }
+        Self {
+            planes,
+            warp: LogWarp::new(near, far).expect("validated: 0 < near < far"),
+        }
     }
 
     /// Appends the view depths of window depths, which these become on the way.
@@ -367,7 +414,14 @@ impl Count {
     fn new(FragmentCount { min, max, law }: FragmentCount) -> Self {
         match law {
             CountLaw::Uniform => Self::Uniform(Uniform::new_inclusive(min, max).expect("validated: min <= max")),
-            CountLaw::LogUniform => Self::LogUniform { min, max, law: LogUniform::new(Range { min: min.into(), max: f64::from(max) + 1.0 }) },
+            CountLaw::LogUniform => Self::LogUniform {
+                min,
+                max,
+                law: LogUniform::new(Range {
+                    min: min.into(),
+                    max: f64::from(max) + 1.0,
+                }),
+            },
         }
     }
 
@@ -382,16 +436,29 @@ impl Count {
 impl Depth {
     fn new(config: &PixelLaw) -> Self {
         let shape = match config.depth {
-            DepthLaw::Window { min, max, reading } => return Self::Window { law: Even::new(Range { min, max }), reading },
+            DepthLaw::Window { min, max, reading } => {
+                return Self::Window {
+                    law: Even::new(Range { min, max }),
+                    reading,
+                };
+            }
             DepthLaw::Uniform {} => Shape::Uniform,
             DepthLaw::Clustered { clusters, width } => Shape::Clustered {
                 clusters: Uniform::new_inclusive(clusters.min, clusters.max).expect("validated: min <= max"),
                 width: LogUniform::new(width),
             },
-            DepthLaw::Paired { gap } => Shape::Paired { gap: LogUniform::new(gap) },
-            DepthLaw::Beta { a, b } => Shape::Beta { a: LogUniform::new(a), b: LogUniform::new(b) },
+            DepthLaw::Paired { gap } => Shape::Paired {
+                gap: LogUniform::new(gap),
+            },
+            DepthLaw::Beta { a, b } => Shape::Beta {
+                a: LogUniform::new(a),
+                b: LogUniform::new(b),
+            },
         };
-        Self::Moment { shape, half: LogUniform::new(config.range.expect("validated: laws in moment depth have a range").half) }
+        Self::Moment {
+            shape,
+            half: LogUniform::new(config.range.expect("validated: laws in moment depth have a range").half),
+        }
     }
 
     fn draw(&self, rng: &mut Stream, n: usize, camera: &Camera, scratch: &mut Scratch, view_z: &mut Vec<f32>) {
@@ -431,7 +498,9 @@ fn draw_window(rng: &mut Stream, n: usize, law: &Even, reading: DepthReading, de
             fill(rng, n - 2, depth);
             depth.iter_mut().for_each(|u| *u = anywhere.at(*u));
             depth.splice(..0, [0.0, 1.0]);
-            depth.iter_mut().for_each(|u| *u = (start + *u * extent).clamp(0.0, 1.0));
+            depth
+                .iter_mut()
+                .for_each(|u| *u = (start + *u * extent).clamp(0.0, 1.0));
         }
     }
 }
@@ -445,7 +514,17 @@ fn fill(rng: &mut Stream, n: usize, units: &mut Vec<f64>) {
 impl Shape {
     /// Depths and objects of n fragments.
     fn draw(&self, rng: &mut Stream, n: usize, scratch: &mut Scratch) {
-        let Scratch { depth, units, object, clusters, radii, angles, soft, ahead, .. } = scratch;
+        let Scratch {
+            depth,
+            units,
+            object,
+            clusters,
+            radii,
+            angles,
+            soft,
+            ahead,
+            ..
+        } = scratch;
         object.clear();
         match self {
             Self::Uniform => fill(rng, n, depth),
@@ -566,9 +645,14 @@ impl Alpha {
     fn new(law: AlphaLaw) -> Self {
         match law {
             AlphaLaw::Uniform { min, max, reading } => Self::Uniform(Even::new(Range { min, max }), reading),
-            AlphaLaw::LogUniform { min, max, reading } => Self::LogUniform(LogUniform::new(Range { min, max }), reading),
+            AlphaLaw::LogUniform { min, max, reading } => {
+                Self::LogUniform(LogUniform::new(Range { min, max }), reading)
+            }
             AlphaLaw::Subrange { min, max } => Self::Subrange(Range { min, max }),
-            AlphaLaw::NearOpaque { share, low } => Self::NearOpaque { share, low: LogUniform::new(low) },
+            AlphaLaw::NearOpaque { share, low } => Self::NearOpaque {
+                share,
+                low: LogUniform::new(low),
+            },
         }
     }
 
@@ -588,7 +672,10 @@ impl Alpha {
             Self::LogUniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
             Self::Subrange(range) => {
                 let (a, b) = (Between(*range).draw(rng), Between(*range).draw(rng));
-                let law = Between(Range { min: a.min(b), max: a.max(b) });
+                let law = Between(Range {
+                    min: a.min(b),
+                    max: a.max(b),
+                });
                 fill(rng, n, units);
                 out.extend(units.iter().map(|&u| law.at(u) as f32));
             }
@@ -596,7 +683,14 @@ impl Alpha {
                 let (share, low) = (Between(*share).draw(rng), low.draw(rng));
                 fill(rng, 2 * n, units);
                 out.extend(units.as_chunks().0.iter().map(|&[u, v]| {
-                    let range = if u < share { Range { min: NEARLY_OPAQUE, max: 1.0 } } else { Range { min: 0.0, max: low } };
+                    let range = if u < share {
+                        Range {
+                            min: NEARLY_OPAQUE,
+                            max: 1.0,
+                        }
+                    } else {
+                        Range { min: 0.0, max: low }
+                    };
                     Between(range).at(v) as f32
                 }));
             }
@@ -614,7 +708,9 @@ fn draw_shared(
     n: usize,
     law: impl Fn(&mut Stream) -> f64,
     reading: AlphaReading,
-    Scratch { object, object_alpha, .. }: &mut Scratch,
+    Scratch {
+        object, object_alpha, ..
+    }: &mut Scratch,
     out: &mut Vec<f32>,
 ) {
     if reading == AlphaReading::PerPixel {
@@ -622,8 +718,8 @@ fn draw_shared(
         out.extend(std::iter::repeat_n(alpha, n));
         return;
     }
-    let mut materials = [0.0; MOST_MATERIALS];
-    let materials = &mut materials[..1 + below(rng.next_u32(), MOST_MATERIALS)];
+    let mut materials = [0.0; MAX_MATERIALS];
+    let materials = &mut materials[..1 + below(rng.next_u32(), MAX_MATERIALS)];
     materials.fill_with(|| opacity(law(rng)));
     object_alpha.clear();
     out.extend(object.iter().map(|&o| {
@@ -673,8 +769,14 @@ mod tests {
 
     /// Shapes of n fragments each, with the objects of their fragments.
     fn shapes(depth: DepthLaw, n: usize, count: usize) -> Vec<(Vec<f64>, Vec<u32>)> {
-        let config = PixelLaw { depth, range: Some(PixelRange { half: range(1.0, 1.0) }), ..SynthConfig::paper().pixels[0] };
-        let Depth::Moment { shape, .. } = Depth::new(&config) else { panic!("a law in moment depth") };
+        let config = PixelLaw {
+            depth,
+            range: Some(PixelRange { half: range(1.0, 1.0) }),
+            ..SynthConfig::paper().pixels[0]
+        };
+        let Depth::Moment { shape, .. } = Depth::new(&config) else {
+            panic!("a law in moment depth")
+        };
         let (mut rng, mut scratch) = (rng(), Scratch::default());
         (0..count)
             .map(|_| {
@@ -687,7 +789,10 @@ mod tests {
     /// Opacities of pixels whose fragments 0 and 1 are one object, 2 and 3 the next, and so on.
     fn alphas(law: AlphaLaw, n: usize, count: usize) -> Vec<Vec<f32>> {
         let (law, mut rng) = (Alpha::new(law), rng());
-        let mut scratch = Scratch { object: (0..n as u32).map(|i| i / 2).collect(), ..Scratch::default() };
+        let mut scratch = Scratch {
+            object: (0..n as u32).map(|i| i / 2).collect(),
+            ..Scratch::default()
+        };
         (0..count)
             .map(|_| {
                 let mut out = Vec::new();
@@ -715,7 +820,12 @@ mod tests {
             ahead.normal()
         });
         let inside = |x: f64| f64::from(u8::from(x.abs() < 1.0));
-        assert!(has_mean(&x, |x| x, 0.0) && has_mean(&x, |x| x * x, 1.0) && has_mean(&x, |x| x.powi(4), 3.0) && has_mean(&x, inside, 0.682_689_5));
+        assert!(
+            has_mean(&x, |x| x, 0.0)
+                && has_mean(&x, |x| x * x, 1.0)
+                && has_mean(&x, |x| x.powi(4), 3.0)
+                && has_mean(&x, inside, 0.682_689_5)
+        );
         // Those of one pair are independent.
         let products: Vec<f64> = x.chunks_exact(2).map(|x| x[0] * x[1]).collect();
         assert!(has_mean(&products, |p| p, 0.0));
@@ -732,20 +842,34 @@ mod tests {
             };
             gamma.boost(&mut x, &mut logarithms);
             assert!(x.iter().all(|&x| x > 0.0));
-            assert!(has_mean(&x, |x| x, a) && has_mean(&x, |x| (x - a).powi(2), a) && has_mean(&x, f64::ln, digamma), "a = {a}");
+            assert!(
+                has_mean(&x, |x| x, a) && has_mean(&x, |x| (x - a).powi(2), a) && has_mean(&x, f64::ln, digamma),
+                "a = {a}"
+            );
         }
     }
 
     #[test]
     fn counts() {
-        let config = |min, max| FragmentCount { min, max, law: CountLaw::LogUniform };
+        let config = |min, max| FragmentCount {
+            min,
+            max,
+            law: CountLaw::LogUniform,
+        };
         let law = Count::new(config(3, 256));
         let n = draws(|rng| law.draw(rng) as f64);
         assert!(n.iter().all(|n| (3.0..=256.0).contains(n)));
         assert!(n.contains(&3.0) && n.contains(&256.0));
         // P(n) = ln((n + 1)/n)/ln(257/3).
         for k in [3.0f64, 10.0, 255.0] {
-            assert!(has_mean(&n, |n| f64::from(u8::from(n == k)), ((k + 1.0) / k).ln() / (257f64 / 3.0).ln()), "{k}");
+            assert!(
+                has_mean(
+                    &n,
+                    |n| f64::from(u8::from(n == k)),
+                    ((k + 1.0) / k).ln() / (257f64 / 3.0).ln()
+                ),
+                "{k}"
+            );
         }
         let law = Count::new(config(7, 7));
         assert!(draws(|rng| law.draw(rng) as f64).iter().all(|&n| n == 7.0));
@@ -753,14 +877,25 @@ mod tests {
 
     #[test]
     fn uniform_and_beta_shapes() {
-        let depths = |law| shapes(law, 8, DRAWS / 8).into_iter().flat_map(|(depth, _)| depth).collect::<Vec<f64>>();
+        let depths = |law| {
+            shapes(law, 8, DRAWS / 8)
+                .into_iter()
+                .flat_map(|(depth, _)| depth)
+                .collect::<Vec<f64>>()
+        };
         let x = depths(DepthLaw::Uniform {});
         assert!(has_mean(&x, |x| x, 0.5) && has_mean(&x, |x| x * x, 1.0 / 3.0));
         for (a, b) in [(0.3, 0.3), (0.5, 4.0), (5.0, 2.0), (0.1, 0.1)] {
-            let x = depths(DepthLaw::Beta { a: range(a, a), b: range(b, b) });
+            let x = depths(DepthLaw::Beta {
+                a: range(a, a),
+                b: range(b, b),
+            });
             assert!(x.iter().all(|x| (0.0..=1.0).contains(x)));
             let m = a / (a + b);
-            assert!(has_mean(&x, |x| x, m) && has_mean(&x, |x| (x - m).powi(2), a * b / ((a + b).powi(2) * (a + b + 1.0))), "a = {a}, b = {b}");
+            assert!(
+                has_mean(&x, |x| x, m) && has_mean(&x, |x| (x - m).powi(2), a * b / ((a + b).powi(2) * (a + b + 1.0))),
+                "a = {a}, b = {b}"
+            );
         }
         // Fragments that stand alone are objects of their own.
         assert!(shapes(DepthLaw::Uniform {}, 5, 1)[0].1.iter().eq(&[0, 1, 2, 3, 4]));
@@ -768,7 +903,10 @@ mod tests {
 
     #[test]
     fn clusters() {
-        let law = |min, max, width| DepthLaw::Clustered { clusters: CountRange { min, max }, width };
+        let law = |min, max, width| DepthLaw::Clustered {
+            clusters: CountRange { min, max },
+            width,
+        };
         // One cluster of a known width: the variance is its square. Tolerance: 5 standard errors, sqrt(2/n) relative.
         let (x, object) = shapes(law(1, 1, range(0.05, 0.05)), DRAWS, 1).remove(0);
         let center = mean(&x);
@@ -784,7 +922,11 @@ mod tests {
         }
         let wide = shapes(law(1, 6, range(1e-3, 0.3)), 2, 50_000);
         // A fragment's mean is that of the centres, wherever its cluster lies.
-        assert!(has_mean(&wide.iter().map(|(x, _)| x[0]).collect::<Vec<_>>(), |x| x, 0.5));
+        assert!(has_mean(
+            &wide.iter().map(|(x, _)| x[0]).collect::<Vec<_>>(),
+            |x| x,
+            0.5
+        ));
     }
 
     /// Clusters and beta laws drawn number by number with scalar functions, in the order in which words are taken: the same depths to the bit as many at once, and
@@ -815,7 +957,11 @@ mod tests {
                         break law.d * v;
                     }
                 };
-                if a < 1.0 { gamma * libm::exp(1.0 / a * libm::log(1.0 - rng.unit())) } else { gamma }
+                if a < 1.0 {
+                    gamma * libm::exp(1.0 / a * libm::log(1.0 - rng.unit()))
+                } else {
+                    gamma
+                }
             }
         }
         let mut last = Vec::new();
@@ -830,7 +976,10 @@ mod tests {
             let mut plain = Plain { spare: None };
             let expected: Vec<f64> = if pixel % 2 == 0 {
                 let (a, b) = (0.1 + 0.003 * (pixel % 1000) as f64, 0.1 + 0.01 * (pixel % 300) as f64);
-                let shape = Shape::Beta { a: LogUniform::new(range(a, a)), b: LogUniform::new(range(b, b)) };
+                let shape = Shape::Beta {
+                    a: LogUniform::new(range(a, a)),
+                    b: LogUniform::new(range(b, b)),
+                };
                 shape.draw(&mut many, n, &mut scratch);
                 let _ = (one.unit(), one.unit());
                 (0..n)
@@ -840,12 +989,23 @@ mod tests {
                     })
                     .collect()
             } else {
-                let Scratch { depth, object, radii, angles, soft, .. } = &mut scratch;
+                let Scratch {
+                    depth,
+                    object,
+                    radii,
+                    angles,
+                    soft,
+                    ..
+                } = &mut scratch;
                 scatter(&mut many, n, 5, object, depth, [radii, angles], soft);
                 (0..n)
                     .map(|i| {
                         assert_eq!(object[i] as usize, below(one.next_u32(), 5));
-                        if one.unit() < 0.5 { plain.normal(&mut one) } else { (2.0 * one.unit() - 1.0) * 3f64.sqrt() }
+                        if one.unit() < 0.5 {
+                            plain.normal(&mut one)
+                        } else {
+                            (2.0 * one.unit() - 1.0) * 3f64.sqrt()
+                        }
                     })
                     .collect()
             };
@@ -859,7 +1019,15 @@ mod tests {
     /// The uniform law is that of `rand`, to the bit.
     #[test]
     fn the_uniform_law_is_rands() {
-        for (min, max) in [(0.0, 1.0), (0.3, 1.0), (0.1, 0.5), (0.02, 0.95), (0.25, 0.25), (0.0, 0.0), (1.0 / 3.0, 0.7)] {
+        for (min, max) in [
+            (0.0, 1.0),
+            (0.3, 1.0),
+            (0.1, 0.5),
+            (0.02, 0.95),
+            (0.25, 0.25),
+            (0.0, 0.0),
+            (1.0 / 3.0, 0.7),
+        ] {
             let (ours, theirs) = (Even::new(range(min, max)), Uniform::new_inclusive(min, max).unwrap());
             let (mut a, mut b) = (rng(), rng());
             for _ in 0..1000 {
@@ -875,12 +1043,23 @@ mod tests {
         for (depth, object) in shapes(DepthLaw::Paired { gap: range(0.01, 0.1) }, 7, 2000) {
             assert_eq!(depth.len(), 7);
             assert_eq!(object, [0, 0, 1, 1, 2, 2, 3]);
-            assert!(depth.chunks(2).all(|pair| (0.0..1.0).contains(&pair[0]) && pair.len() == 1 || (0.0..=0.1).contains(&(pair[1] - pair[0]))));
+            assert!(
+                depth
+                    .chunks(2)
+                    .all(|pair| (0.0..1.0).contains(&pair[0]) && pair.len() == 1
+                        || (0.0..=0.1).contains(&(pair[1] - pair[0])))
+            );
         }
         // Each surface's gap is uniform below the pixel's: half of it on average.
-        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(0.2, 0.2) }, 2, DRAWS).iter().map(|(x, _)| x[1] - x[0]).collect();
+        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(0.2, 0.2) }, 2, DRAWS)
+            .iter()
+            .map(|(x, _)| x[1] - x[0])
+            .collect();
         assert!(has_mean(&gaps, |g| g, 0.1));
-        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(1e-3, 1.0) }, 2, DRAWS).iter().map(|(x, _)| x[1] - x[0]).collect();
+        let gaps: Vec<f64> = shapes(DepthLaw::Paired { gap: range(1e-3, 1.0) }, 2, DRAWS)
+            .iter()
+            .map(|(x, _)| x[1] - x[0])
+            .collect();
         assert!(has_mean(&gaps, |g| g, 0.5 * (1.0 - 1e-3) / 1e3f64.ln()));
     }
 
@@ -888,7 +1067,9 @@ mod tests {
     fn stretched_extremes_are_exactly_at_the_ends() {
         let mut rng = rng();
         for _ in 0..1000 {
-            let mut x: Vec<f64> = (0..2 + below(rng.next_u32(), 30)).map(|_| 3.0 * rng.unit() - 1.0).collect();
+            let mut x: Vec<f64> = (0..2 + below(rng.next_u32(), 30))
+                .map(|_| 3.0 * rng.unit() - 1.0)
+                .collect();
             let half = LogUniform::new(range(1e-4, 1.0)).draw(&mut rng);
             let center = (2.0 * rng.unit() - 1.0) * (1.0 - half);
             let order = |x: &[f64]| {
@@ -899,7 +1080,10 @@ mod tests {
             let before = order(&x);
             stretch(&mut x, center, half);
             assert_eq!(order(&x), before);
-            assert_eq!((x[before[0]], x[before[before.len() - 1]]), (center - half, center + half));
+            assert_eq!(
+                (x[before[0]], x[before[before.len() - 1]]),
+                (center - half, center + half)
+            );
         }
         for ties in [&mut [0.3][..], &mut [0.3, 0.3]] {
             stretch(ties, 0.25, 0.5);
@@ -911,7 +1095,11 @@ mod tests {
     #[test]
     fn ranges_of_pixels() {
         let half = range(0.02, 0.5);
-        let law = PixelLaw { depth: DepthLaw::Uniform {}, range: Some(PixelRange { half }), ..SynthConfig::paper().pixels[0] };
+        let law = PixelLaw {
+            depth: DepthLaw::Uniform {},
+            range: Some(PixelRange { half }),
+            ..SynthConfig::paper().pixels[0]
+        };
         let planes = SynthConfig::paper().camera;
         let (law, camera, mut rng, mut scratch) = (Law::new(&law), Camera::new(planes), rng(), Scratch::default());
         let (mut halves, mut centers) = (Vec::new(), Vec::new());
@@ -935,10 +1123,38 @@ mod tests {
     #[test]
     fn alpha_readings() {
         for (law, log_mean) in [
-            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerFragment }, Some(-1.0)),
-            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerPixel }, Some(-1.0)),
-            (AlphaLaw::LogUniform { min: 0.01, max: 1.0, reading: AlphaReading::PerObject }, Some(-1.0)),
-            (AlphaLaw::Uniform { min: 0.01, max: 1.0, reading: AlphaReading::PerObject }, None),
+            (
+                AlphaLaw::LogUniform {
+                    min: 0.01,
+                    max: 1.0,
+                    reading: AlphaReading::PerFragment,
+                },
+                Some(-1.0),
+            ),
+            (
+                AlphaLaw::LogUniform {
+                    min: 0.01,
+                    max: 1.0,
+                    reading: AlphaReading::PerPixel,
+                },
+                Some(-1.0),
+            ),
+            (
+                AlphaLaw::LogUniform {
+                    min: 0.01,
+                    max: 1.0,
+                    reading: AlphaReading::PerObject,
+                },
+                Some(-1.0),
+            ),
+            (
+                AlphaLaw::Uniform {
+                    min: 0.01,
+                    max: 1.0,
+                    reading: AlphaReading::PerObject,
+                },
+                None,
+            ),
         ] {
             let pixels = alphas(law, 20, 10_000);
             // One fragment a pixel, so that the numbers are independent.
@@ -947,13 +1163,31 @@ mod tests {
                 Some(expected) => assert!(has_mean(&first, f64::log10, expected), "{law:?}"),
                 None => assert!(has_mean(&first, |a| a, 0.505), "{law:?}"),
             }
-            let values: Vec<usize> = pixels.iter().map(|a| a.iter().map(|a| a.to_bits()).collect::<std::collections::HashSet<_>>().len()).collect();
+            let values: Vec<usize> = pixels
+                .iter()
+                .map(|a| {
+                    a.iter()
+                        .map(|a| a.to_bits())
+                        .collect::<std::collections::HashSet<_>>()
+                        .len()
+                })
+                .collect();
             match law {
-                AlphaLaw::Uniform { reading: AlphaReading::PerObject, .. } | AlphaLaw::LogUniform { reading: AlphaReading::PerObject, .. } => {
+                AlphaLaw::Uniform {
+                    reading: AlphaReading::PerObject,
+                    ..
+                }
+                | AlphaLaw::LogUniform {
+                    reading: AlphaReading::PerObject,
+                    ..
+                } => {
                     assert!(pixels.iter().all(|a| a.chunks(2).all(|object| object[0] == object[1])));
                     assert!((1..=4).all(|n| values.contains(&n)) && values.iter().all(|n| (1..=4).contains(n)));
                 }
-                AlphaLaw::LogUniform { reading: AlphaReading::PerPixel, .. } => assert!(values.iter().all(|&n| n == 1)),
+                AlphaLaw::LogUniform {
+                    reading: AlphaReading::PerPixel,
+                    ..
+                } => assert!(values.iter().all(|&n| n == 1)),
                 _ => assert!(values.iter().all(|&n| n > 15)),
             }
         }
@@ -963,38 +1197,91 @@ mod tests {
     fn subranges_and_near_opaque() {
         let pixels = alphas(AlphaLaw::Subrange { min: 0.2, max: 0.8 }, 100, 4000);
         assert!(pixels.iter().flatten().all(|a| (0.2..=0.8).contains(a)));
-        assert!(has_mean(&pixels.iter().map(|a| a[0].into()).collect::<Vec<_>>(), |a| a, 0.5));
-        let extents: Vec<f64> =
-            pixels.iter().map(|a| f64::from(a.iter().copied().fold(0.0, f32::max) - a.iter().copied().fold(1.0, f32::min))).collect();
+        assert!(has_mean(
+            &pixels.iter().map(|a| a[0].into()).collect::<Vec<_>>(),
+            |a| a,
+            0.5
+        ));
+        let extents: Vec<f64> = pixels
+            .iter()
+            .map(|a| f64::from(a.iter().copied().fold(0.0, f32::max) - a.iter().copied().fold(1.0, f32::min)))
+            .collect();
         // The two ends are 0.6/3 apart on average; the extremes of 100 draws reach 99/101 of that.
         assert!(has_mean(&extents, |e| e, 0.2 * 99.0 / 101.0));
 
         let (share, low) = (range(0.1, 0.5), range(0.01, 0.3));
         let pixels = alphas(AlphaLaw::NearOpaque { share, low }, 200, 4000);
-        assert!(pixels.iter().flatten().all(|a| (0.0..=0.3).contains(a) || (0.9..=1.0).contains(a)));
-        let shares: Vec<f64> = pixels.iter().map(|a| a.iter().filter(|&&a| a >= 0.9).count() as f64 / 200.0).collect();
+        assert!(
+            pixels
+                .iter()
+                .flatten()
+                .all(|a| (0.0..=0.3).contains(a) || (0.9..=1.0).contains(a))
+        );
+        let shares: Vec<f64> = pixels
+            .iter()
+            .map(|a| a.iter().filter(|&&a| a >= 0.9).count() as f64 / 200.0)
+            .collect();
         assert!(has_mean(&shares, |s| s, 0.3));
         // Shares differ between pixels: the variance is that of the uniform law and of 200 fragments' binomial law.
-        assert!(has_mean(&shares, |s| (s - 0.3).powi(2), 0.16 / 12.0 + (0.3 * 0.7 - 0.16 / 12.0) / 200.0));
+        assert!(has_mean(
+            &shares,
+            |s| (s - 0.3).powi(2),
+            0.16 / 12.0 + (0.3 * 0.7 - 0.16 / 12.0) / 200.0
+        ));
     }
 
     #[test]
     fn degenerate_ranges_are_exact() {
-        let constant = alphas(AlphaLaw::LogUniform { min: 0.3, max: 0.3, reading: AlphaReading::PerFragment }, 5, 100);
+        let constant = alphas(
+            AlphaLaw::LogUniform {
+                min: 0.3,
+                max: 0.3,
+                reading: AlphaReading::PerFragment,
+            },
+            5,
+            100,
+        );
         assert!(constant.iter().flatten().all(|&a| a == 0.3));
-        let none = alphas(AlphaLaw::NearOpaque { share: range(0.0, 0.0), low: range(1.0, 1.0) }, 5, 100);
+        let none = alphas(
+            AlphaLaw::NearOpaque {
+                share: range(0.0, 0.0),
+                low: range(1.0, 1.0),
+            },
+            5,
+            100,
+        );
         assert!(none.iter().flatten().any(|&a| a < 0.9));
-        let all = alphas(AlphaLaw::NearOpaque { share: range(1.0, 1.0), low: range(0.1, 0.1) }, 5, 100);
+        let all = alphas(
+            AlphaLaw::NearOpaque {
+                share: range(1.0, 1.0),
+                low: range(0.1, 0.1),
+            },
+            5,
+            100,
+        );
         assert!(all.iter().flatten().all(|a| (0.9..=1.0).contains(a)));
         let opaque = alphas(AlphaLaw::Subrange { min: 1.0, max: 1.0 }, 5, 100);
         assert!(opaque.iter().flatten().all(|&a| a == 1.0));
         // The whole range: every pixel's ends are the planes themselves. A single fragment lies halfway between them.
         let law = |n| {
             let config = SynthConfig::paper().pixels[0];
-            let fragments = FragmentCount { min: n, max: n, law: CountLaw::LogUniform };
-            Law::new(&PixelLaw { fragments, depth: DepthLaw::Uniform {}, range: Some(PixelRange { half: range(1.0, 1.0) }), ..config })
+            let fragments = FragmentCount {
+                min: n,
+                max: n,
+                law: CountLaw::LogUniform,
+            };
+            Law::new(&PixelLaw {
+                fragments,
+                depth: DepthLaw::Uniform {},
+                range: Some(PixelRange { half: range(1.0, 1.0) }),
+                ..config
+            })
         };
-        let (camera, mut rng, mut scratch) = (Camera::new(CameraPlanes::new(1.0, 16.0).unwrap()), rng(), Scratch::default());
+        let (camera, mut rng, mut scratch) = (
+            Camera::new(CameraPlanes::new(1.0, 16.0).unwrap()),
+            rng(),
+            Scratch::default(),
+        );
         let (mut view_z, mut alpha) = (Vec::new(), Vec::new());
         law(4).draw(&mut rng, &camera, &mut scratch, &mut view_z, &mut alpha);
         assert_eq!(view_z.iter().copied().fold(f32::MAX, f32::min), 1.0);

@@ -102,7 +102,9 @@ impl Synth {
             view_z.extend_from_slice(&part.view_z);
             alpha.extend_from_slice(&part.alpha);
         }
-        FragmentList::new(offsets, view_z, alpha, None).expect("a validated distribution gives valid fragments").with_planes(self.config.camera)
+        FragmentList::new(offsets, view_z, alpha, None)
+            .expect("a validated distribution gives valid fragments")
+            .with_planes(self.config.camera)
     }
 
     /// One of the pixels that [`Self::pixels`] makes lists of.
@@ -111,7 +113,11 @@ impl Synth {
         view_z.clear();
         alpha.clear();
         self.draw(purpose, index, scratch, view_z, alpha);
-        Pixel { view_z, alpha, color: None }
+        Pixel {
+            view_z,
+            alpha,
+            color: None,
+        }
     }
 
     /// Appends one pixel.
@@ -121,7 +127,10 @@ impl Synth {
     }
 
     fn part(&self, purpose: Purpose, first: u64, count: usize, scratch: &mut Scratch) -> Part {
-        let mut part = Part { counts: Vec::with_capacity(count), ..Part::default() };
+        let mut part = Part {
+            counts: Vec::with_capacity(count),
+            ..Part::default()
+        };
         for index in first..first + count as u64 {
             let before = part.view_z.len();
             self.draw(purpose, index, scratch, &mut part.view_z, &mut part.alpha);
@@ -136,7 +145,11 @@ impl Synth {
             [only] => only,
             laws => {
                 let u = rng.unit();
-                &laws[self.shares.iter().position(|&share| u < share).expect("u < 1, the last share")]
+                &laws[self
+                    .shares
+                    .iter()
+                    .position(|&share| u < share)
+                    .expect("u < 1, the last share")]
             }
         }
     }
@@ -160,11 +173,20 @@ mod tests {
 
     fn windows(list: &FragmentList, p: usize) -> Vec<f64> {
         let planes = list.planes().unwrap();
-        list.pixel(p).view_z.iter().map(|&v| planes.window(crate::pixel::ViewZ(v.into())).unwrap().0).collect()
+        list.pixel(p)
+            .view_z
+            .iter()
+            .map(|&v| planes.window(crate::pixel::ViewZ(v.into())).unwrap().0)
+            .collect()
     }
 
     fn sha256(list: &FragmentList) -> String {
-        let bytes: Vec<u8> = list.view_z().iter().chain(list.alpha()).flat_map(|v| v.to_le_bytes()).collect();
+        let bytes: Vec<u8> = list
+            .view_z()
+            .iter()
+            .chain(list.alpha())
+            .flat_map(|v| v.to_le_bytes())
+            .collect();
         crate::numeric::digest::sha256_hex([bytes.as_slice()])
     }
 
@@ -183,8 +205,14 @@ mod tests {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
                 assert_eq!(pool.install(|| synth.pixels(Purpose::Training, 0, 1000)), all);
             }
-            assert_ne!(synth.pixels(Purpose::Validation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
-            assert_ne!(synth.pixels(Purpose::Evaluation, 0, 10), synth.pixels(Purpose::Training, 0, 10));
+            assert_ne!(
+                synth.pixels(Purpose::Validation, 0, 10),
+                synth.pixels(Purpose::Training, 0, 10)
+            );
+            assert_ne!(
+                synth.pixels(Purpose::Evaluation, 0, 10),
+                synth.pixels(Purpose::Training, 0, 10)
+            );
             assert_eq!(synth.pixels(Purpose::Training, 5, 0).pixels(), 0);
         }
     }
@@ -198,7 +226,11 @@ mod tests {
     /// The same of all laws at once.
     #[test]
     fn bytes_of_a_wide_seed_are_pinned() {
-        insta::assert_snapshot!(sha256(&Synth::new(SynthConfig::wide(), 7).unwrap().pixels(Purpose::Training, 0, 1024)));
+        insta::assert_snapshot!(sha256(&Synth::new(SynthConfig::wide(), 7).unwrap().pixels(
+            Purpose::Training,
+            0,
+            1024
+        )));
     }
 
     /// Means and ranges of the default reading. Tolerances are 5 standard errors over 20 000 pixels.
@@ -221,17 +253,26 @@ mod tests {
 
     #[test]
     fn the_other_readings() {
-        let extent = synth(|law| law.depth = window(0.3, 1.0, DepthReading::PixelExtent)).pixels(Purpose::Training, 0, 500);
+        let extent =
+            synth(|law| law.depth = window(0.3, 1.0, DepthReading::PixelExtent)).pixels(Purpose::Training, 0, 500);
         for p in 0..extent.pixels() {
             let w = windows(&extent, p);
             let (lo, hi) = w.iter().fold((1.0f64, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
             assert!((0.3 - 1e-6..=1.0).contains(&(hi - lo)), "extent {}", hi - lo);
         }
-        let per_pixel = AlphaLaw::Uniform { min: 0.1, max: 0.5, reading: AlphaReading::PerPixel };
+        let per_pixel = AlphaLaw::Uniform {
+            min: 0.1,
+            max: 0.5,
+            reading: AlphaReading::PerPixel,
+        };
         let shared = synth(|law| law.alpha = per_pixel).pixels(Purpose::Training, 0, 500);
         assert!((0..shared.pixels()).all(|p| shared.pixel(p).alpha.iter().all(|&a| a == shared.pixel(p).alpha[0])));
         let single = synth(|law| {
-            law.fragments = FragmentCount { min: 1, max: 1, law: CountLaw::Uniform };
+            law.fragments = FragmentCount {
+                min: 1,
+                max: 1,
+                law: CountLaw::Uniform,
+            };
             law.depth = window(0.3, 1.0, DepthReading::PixelExtent);
         });
         assert_eq!(single.pixels(Purpose::Training, 0, 100).depth_complexity(), 1);
@@ -241,13 +282,24 @@ mod tests {
     #[test]
     fn laws_are_as_frequent_as_their_weights_say() {
         let mut config = SynthConfig::paper();
-        let law = |n, weight| PixelLaw { weight, fragments: FragmentCount { min: n, max: n, law: CountLaw::Uniform }, ..config.pixels[0] };
+        let law = |n, weight| PixelLaw {
+            weight,
+            fragments: FragmentCount {
+                min: n,
+                max: n,
+                law: CountLaw::Uniform,
+            },
+            ..config.pixels[0]
+        };
         config.pixels = vec![law(1, 0.5), law(2, 3.0), law(3, 1.5)];
         let pixels = 20_000;
         let list = Synth::new(config, 7).unwrap().pixels(Purpose::Training, 0, pixels);
         for (n, share) in [(1, 0.1), (2, 0.6), (3, 0.3)] {
             let found = (0..pixels).filter(|&p| list.pixel(p).len() == n).count() as f64 / pixels as f64;
-            assert!((found - share).abs() < 5.0 * (share * (1.0 - share) / pixels as f64).sqrt(), "{n} fragments: {found}");
+            assert!(
+                (found - share).abs() < 5.0 * (share * (1.0 - share) / pixels as f64).sqrt(),
+                "{n} fragments: {found}"
+            );
         }
     }
 
@@ -256,10 +308,22 @@ mod tests {
     fn the_wide_distribution_is_within_its_ranges() {
         let config = SynthConfig::wide();
         for law in &config.pixels {
-            let list = Synth::new(SynthConfig { pixels: vec![*law], ..config.clone() }, 7).unwrap().pixels(Purpose::Training, 0, 300);
+            let list = Synth::new(
+                SynthConfig {
+                    pixels: vec![*law],
+                    ..config.clone()
+                },
+                7,
+            )
+            .unwrap()
+            .pixels(Purpose::Training, 0, 300);
             assert!(list.view_z().iter().all(|v| (0.1..=100.0).contains(v)), "{law:?}");
             assert!(list.alpha().iter().all(|a| (0.0..=1.0).contains(a)), "{law:?}");
-            assert!((0..list.pixels()).all(|p| (law.fragments.min as usize..=law.fragments.max as usize).contains(&list.pixel(p).len())), "{law:?}");
+            assert!(
+                (0..list.pixels())
+                    .all(|p| (law.fragments.min as usize..=law.fragments.max as usize).contains(&list.pixel(p).len())),
+                "{law:?}"
+            );
         }
         let list = Synth::new(config, 7).unwrap().pixels(Purpose::Training, 0, 20_000);
         assert_eq!((0..list.pixels()).map(|p| list.pixel(p).len()).min(), Some(3));

@@ -22,7 +22,14 @@ pub struct Adam {
 impl Adam {
     /// Fresh moments for `count` parameters.
     pub fn new(count: usize, config: &TrainConfig) -> Self {
-        Self { beta1: config.beta1, beta2: config.beta2, epsilon: config.epsilon as f32, steps: 0, first: vec![0.0; count], second: vec![0.0; count] }
+        Self {
+            beta1: config.beta1,
+            beta2: config.beta2,
+            epsilon: config.epsilon as f32,
+            steps: 0,
+            first: vec![0.0; count],
+            second: vec![0.0; count],
+        }
     }
 
     /// One step against the gradient.
@@ -34,7 +41,12 @@ impl Adam {
         let rate = (learning_rate / correction(self.beta1)) as f32;
         let inverse = (1.0 / correction(self.beta2)) as f32;
         let epsilon = self.epsilon;
-        for (((p, &g), m), v) in parameters.iter_mut().zip(gradient).zip(&mut self.first).zip(&mut self.second) {
+        for (((p, &g), m), v) in parameters
+            .iter_mut()
+            .zip(gradient)
+            .zip(&mut self.first)
+            .zip(&mut self.second)
+        {
             let mean = beta1 * *m + (1.0 - beta1) * g;
             let square = beta2 * *v + (1.0 - beta2) * (g * g);
             *m = if mean.abs() > LEAST { mean } else { 0.0 };
@@ -47,7 +59,11 @@ impl Adam {
     pub fn moments(&self, order: impl Fn(&[f32]) -> Vec<f32>) -> AdamMoments {
         match self.steps {
             0 => AdamMoments::default(),
-            steps => AdamMoments { steps, first: order(&self.first), second: order(&self.second) },
+            steps => AdamMoments {
+                steps,
+                first: order(&self.first),
+                second: order(&self.second),
+            },
         }
     }
 

@@ -1,9 +1,9 @@
 //! burn's autodiff and Adam, on any of its backends: the independent opinion on what our own kernel computes.
 
 use super::fused::all_blocks;
-use super::{AdamMoments, BackendError, Optimiser, TrainConfig, initial};
+use super::{AdamMoments, BackendError, Engine, Optimiser, TrainConfig, initial};
 use crate::dataset::{Batch, Blocks};
-use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
+use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer as _};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,21 +19,6 @@ pub struct BurnOptimiser {
     states: Vec<Option<AdamState<2>>>,
 }
 
-/// burn's backends that this program was built with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Engine {
-    /// burn-flex, on the CPU.
-    Flex,
-    /// burn-ndarray, on the CPU.
-    Ndarray,
-    /// burn-wgpu, on the GPU that it likes best; `CUBECL_WGPU_DEFAULT_DEVICE` names another.
-    #[cfg(feature = "wgpu")]
-    Wgpu,
-    /// burn-cuda, on the first CUDA device.
-    #[cfg(feature = "cuda")]
-    Cuda,
-}
-
 /// What an engine computes on.
 #[derive(Debug, Clone)]
 struct Opened {
@@ -42,54 +27,38 @@ struct Opened {
     adapter: Option<String>,
 }
 
-impl Engine {
-    /// All of them.
-    pub const ALL: &'static [Self] = &[
-        Self::Flex,
-        Self::Ndarray,
+/// Name of the GPU that an engine computes on; none where that is the CPU.
+///
+/// # Errors
+/// [`BackendError::NoDevice`].
+pub fn adapter(engine: Engine) -> Result<Option<String>, BackendError> {
+    open(engine).map(|opened| opened.adapter)
+}
+
+/// Where it computes.
+fn open(engine: Engine) -> Result<Opened, BackendError> {
+    match engine {
+        #[cfg(feature = "flex")]
+        Engine::Flex => Ok(Opened {
+            device: Device::flex(),
+            adapter: None,
+        }),
+        // Deprecated by burn 0.22 in favour of flex; kept because it was asked for by name.
+        #[allow(deprecated)]
+        #[cfg(feature = "burn")]
+        Engine::Ndarray => Ok(Opened {
+            device: Device::ndarray(),
+            adapter: None,
+        }),
         #[cfg(feature = "wgpu")]
-        Self::Wgpu,
-        #[cfg(feature = "cuda")]
-        Self::Cuda,
-    ];
-
-    /// Its name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Flex => "flex",
-            Self::Ndarray => "ndarray",
-            #[cfg(feature = "wgpu")]
-            Self::Wgpu => "wgpu",
-            #[cfg(feature = "cuda")]
-            Self::Cuda => "cuda",
+        Engine::Wgpu => {
+            static OPENED: gpu::Once = gpu::Once::new();
+            gpu::open(&OPENED, engine.name(), gpu::wgpu)
         }
-    }
-
-    /// Name of the GPU that it computes on; none where that is the CPU.
-    ///
-    /// # Errors
-    /// [`BackendError::NoDevice`].
-    pub fn adapter(self) -> Result<Option<String>, BackendError> {
-        self.open().map(|opened| opened.adapter)
-    }
-
-    /// Where it computes.
-    fn open(self) -> Result<Opened, BackendError> {
-        match self {
-            Self::Flex => Ok(Opened { device: Device::flex(), adapter: None }),
-            // Deprecated by burn 0.22 in favour of flex; kept because it was asked for by name.
-            #[allow(deprecated)]
-            Self::Ndarray => Ok(Opened { device: Device::ndarray(), adapter: None }),
-            #[cfg(feature = "wgpu")]
-            Self::Wgpu => {
-                static OPENED: gpu::Once = gpu::Once::new();
-                gpu::open(&OPENED, self.name(), gpu::wgpu)
-            }
-            #[cfg(feature = "cuda")]
-            Self::Cuda => {
-                static OPENED: gpu::Once = gpu::Once::new();
-                gpu::open(&OPENED, self.name(), gpu::cuda)
-            }
+        #[cfg(feature = "cuda")]
+        Engine::Cuda => {
+            static OPENED: gpu::Once = gpu::Once::new();
+            gpu::open(&OPENED, engine.name(), gpu::cuda)
         }
     }
 }
@@ -104,14 +73,23 @@ mod gpu {
     pub type Once = OnceLock<Result<Opened, BackendError>>;
 
     /// What `device` gives, opened and with its name.
-    pub fn open(once: &Once, name: &'static str, device: fn() -> Result<Device, String>) -> Result<Opened, BackendError> {
+    pub fn open(
+        once: &Once,
+        name: &'static str,
+        device: fn() -> Result<Device, String>,
+    ) -> Result<Opened, BackendError> {
         once.get_or_init(|| {
             let opened = caught(|| -> Result<Opened, String> {
                 let device = device()?;
                 let identity = device.identity().ok_or("burn gives the device no name")?;
-                Ok(Opened { device, adapter: Some(identity.name) })
+                Ok(Opened {
+                    device,
+                    adapter: Some(identity.name),
+                })
             });
-            opened.and_then(|opened| opened).map_err(|reason| BackendError::NoDevice { name, reason })
+            opened
+                .and_then(|opened| opened)
+                .map_err(|reason| BackendError::NoDevice { name, reason })
         })
         .clone()
     }
@@ -122,9 +100,16 @@ mod gpu {
         use wgpu::{Backend, Backends, Instance, InstanceDescriptor, PowerPreference, RequestAdapterOptions};
 
         // OpenGL only where there is nothing else: some drivers write to stderr when asked for it.
-        let instance = Instance::new(InstanceDescriptor { backends: Backends::PRIMARY, ..InstanceDescriptor::new_without_display_handle() });
-        let strong = RequestAdapterOptions { power_preference: PowerPreference::HighPerformance, ..Default::default() };
-        let api = match pollster::block_on(instance.request_adapter(&strong)).map(|adapter| adapter.get_info().backend) {
+        let instance = Instance::new(InstanceDescriptor {
+            backends: Backends::PRIMARY,
+            ..InstanceDescriptor::new_without_display_handle()
+        });
+        let strong = RequestAdapterOptions {
+            power_preference: PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let api = match pollster::block_on(instance.request_adapter(&strong)).map(|adapter| adapter.get_info().backend)
+        {
             Ok(Backend::Vulkan) => WgpuBackend::Vulkan,
             Ok(Backend::Metal) => WgpuBackend::Metal,
             Ok(Backend::Dx12) => WgpuBackend::Dx12,
@@ -132,16 +117,27 @@ mod gpu {
         };
         let unavailable = || match std::env::var("CUBECL_WGPU_DEFAULT_DEVICE") {
             Ok(asked) => {
-                let infos = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY)).into_iter().map(|adapter| adapter.get_info());
-                let there: Vec<String> = infos.map(|info| format!("{:?} {}", info.device_type, info.name)).collect();
+                let infos = pollster::block_on(instance.enumerate_adapters(Backends::PRIMARY))
+                    .into_iter()
+                    .map(|adapter| adapter.get_info());
+                let there: Vec<String> = infos
+                    .map(|info| format!("{:?} {}", info.device_type, info.name))
+                    .collect();
                 format!("CUBECL_WGPU_DEFAULT_DEVICE is '{asked}', and there are {there:?}")
             }
-            Err(_) => "no GPU adapter; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)".to_owned(),
+            Err(_) => {
+                "no GPU adapter; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)"
+                    .to_owned()
+            }
         };
-        let (device, setup) = Device::wgpu_options().graphics_api(api).init_with_setup().map_err(|error| match error {
-            WgpuInitError::AdapterUnavailable { .. } => unavailable(),
-            other => other.to_string(),
-        })?;
+        let (device, setup) =
+            Device::wgpu_options()
+                .graphics_api(api)
+                .init_with_setup()
+                .map_err(|error| match error {
+                    WgpuInitError::AdapterUnavailable { .. } => unavailable(),
+                    other => other.to_string(),
+                })?;
         // What names the adapter everywhere else means nothing to burn.
         let adapter = setup.adapter.get_info().name;
         match std::env::var("WGPU_ADAPTER_NAME") {
@@ -156,7 +152,10 @@ mod gpu {
     pub fn cuda() -> Result<Device, String> {
         use burn::tensor::DeviceType;
         // Asks for the driver first; everything else of burn's would panic without it.
-        Device::enumerate(DeviceType::Cuda).into_iter().next().ok_or_else(|| "no CUDA device, or no NVIDIA driver that finds it".to_owned())
+        Device::enumerate(DeviceType::Cuda)
+            .into_iter()
+            .next()
+            .ok_or_else(|| "no CUDA device, or no NVIDIA driver that finds it".to_owned())
     }
 }
 
@@ -164,25 +163,52 @@ mod gpu {
 fn caught<T>(f: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(f)).map_err(|panic| match panic.downcast::<String>() {
         Ok(message) => *message,
-        Err(panic) => panic.downcast_ref::<&str>().copied().unwrap_or("burn panicked").to_owned(),
+        Err(panic) => panic
+            .downcast_ref::<&str>()
+            .copied()
+            .unwrap_or("burn panicked")
+            .to_owned(),
     })
 }
 
 /// Rows of a trial step, at most.
-const MOST_TRIAL_ROWS: usize = 1 << 16;
+const MAX_TRIAL_ROWS: usize = 1 << 16;
 
 impl BurnOptimiser {
     /// An optimiser at the given weights. On a GPU it takes a step on rows of zeros first: what the driver refuses is refused here.
     ///
     /// # Errors
     /// [`BackendError::NoDevice`] where the machine has nothing that the engine computes on, [`BackendError::Failed`] where the trial step fails.
-    pub fn new(engine: Engine, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Result<Self, BackendError> {
-        let adam = AdamConfig::new().with_beta_1(config.beta1 as f32).with_beta_2(config.beta2 as f32).with_epsilon(config.epsilon as f32).build();
-        let Opened { device, adapter } = engine.open()?;
-        let mut optimiser = Self { answer: set.answer(), shapes: shapes.to_vec(), device, adam, tensors: Vec::new(), states: Vec::new() };
+    pub fn new(
+        engine: Engine,
+        set: FeatureSet,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        config: &TrainConfig,
+    ) -> Result<Self, BackendError> {
+        let adam = AdamConfig::new()
+            .with_beta_1(config.beta1 as f32)
+            .with_beta_2(config.beta2 as f32)
+            .with_epsilon(config.epsilon as f32)
+            .build();
+        let Opened { device, adapter } = open(engine)?;
+        let mut optimiser = Self {
+            answer: set.answer(),
+            shapes: shapes.to_vec(),
+            device,
+            adam,
+            tensors: Vec::new(),
+            states: Vec::new(),
+        };
         if let Some(adapter) = adapter {
-            let failed = |reason| BackendError::Failed { name: engine.name(), adapter: adapter.clone(), reason };
-            caught(|| optimiser.trial(parameters, config.batch.min(MOST_TRIAL_ROWS))).and_then(|done| done).map_err(failed)?;
+            let failed = |reason| BackendError::Failed {
+                name: engine.name(),
+                adapter: adapter.clone(),
+                reason,
+            };
+            caught(|| optimiser.trial(parameters, config.batch.min(MAX_TRIAL_ROWS)))
+                .and_then(|done| done)
+                .map_err(failed)?;
         }
         optimiser.restore(parameters, &AdamMoments::default());
         Ok(optimiser)
@@ -192,11 +218,19 @@ impl BurnOptimiser {
     fn trial(&mut self, parameters: &[f32], rows: usize) -> Result<(), String> {
         self.restore(parameters, &AdamMoments::default());
         let blocks = Blocks::zeros(self.shapes[0].0, rows);
-        let error = self.step(Batch { blocks: &blocks, order: &all_blocks(&blocks) }, 1e-3);
+        let error = self.step(
+            Batch {
+                blocks: &blocks,
+                order: &all_blocks(&blocks),
+            },
+            1e-3,
+        );
         if error == 0.0 && self.parameters() == parameters {
             Ok(())
         } else {
-            Err(format!("rows that weigh nothing had an error of {error:e}, or moved the weights"))
+            Err(format!(
+                "rows that weigh nothing had an error of {error:e}, or moved the weights"
+            ))
         }
     }
 
@@ -225,17 +259,28 @@ impl BurnOptimiser {
         let column = |values: Vec<f32>| -> Tensor<2> { Tensor::from_data(TensorData::new(values, [n, 1]), &tracked) };
         let absorbance = match self.answer {
             Answer::Sigmoid => None,
-            Answer::Fraction { column: at, offset } => {
-                Some(column(features.chunks_exact(width).map(|row| (libm::expf(row[at].min(MOST_LOG_ABSORBANCE)) - offset).max(0.0)).collect()))
-            }
+            Answer::Fraction { column: at, offset } => Some(column(
+                features
+                    .chunks_exact(width)
+                    .map(|row| (libm::expf(row[at].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0))
+                    .collect(),
+            )),
         };
         let (y, weights) = (column(targets), column(weights));
         let x: Tensor<2> = Tensor::from_data(TensorData::new(features, [n, width]), &tracked);
-        let leaves: Vec<Tensor<2>> = self.tensors.iter().map(|t| Tensor::from_inner(t.clone()).require_grad()).collect();
+        let leaves: Vec<Tensor<2>> = self
+            .tensors
+            .iter()
+            .map(|t| Tensor::from_inner(t.clone()).require_grad())
+            .collect();
         let mut h = x;
         for (index, layer) in leaves.chunks_exact(2).enumerate() {
             h = h.matmul(layer[0].clone()) + layer[1].clone();
-            h = if index + 1 < self.shapes.len() { activation::relu(h) } else { activation::sigmoid(h) };
+            h = if index + 1 < self.shapes.len() {
+                activation::relu(h)
+            } else {
+                activation::sigmoid(h)
+            };
         }
         if let Some(absorbance) = absorbance {
             h = (absorbance * h).neg().exp();
@@ -243,7 +288,13 @@ impl BurnOptimiser {
         let loss = ((h - y).square() * weights).mean();
         let mut gradients = loss.backward();
         let loss: f32 = loss.into_scalar();
-        let gradients = leaves.iter().map(|leaf| leaf.grad_remove(&mut gradients).expect("every parameter takes part in the loss")).collect();
+        let gradients = leaves
+            .iter()
+            .map(|leaf| {
+                leaf.grad_remove(&mut gradients)
+                    .expect("every parameter takes part in the loss")
+            })
+            .collect();
         (loss.into(), gradients)
     }
 }
@@ -274,11 +325,19 @@ impl Optimiser for BurnOptimiser {
 
     fn moments(&self) -> AdamMoments {
         let states: Option<Vec<_>> = self.states.iter().cloned().collect();
-        let Some(states) = states else { return AdamMoments::default() };
+        let Some(states) = states else {
+            return AdamMoments::default();
+        };
         AdamMoments {
             steps: states[0].momentum.time as u64,
-            first: states.iter().flat_map(|s| numbers(s.momentum.moment_1.clone())).collect(),
-            second: states.iter().flat_map(|s| numbers(s.momentum.moment_2.clone())).collect(),
+            first: states
+                .iter()
+                .flat_map(|s| numbers(s.momentum.moment_1.clone()))
+                .collect(),
+            second: states
+                .iter()
+                .flat_map(|s| numbers(s.momentum.moment_2.clone()))
+                .collect(),
         }
     }
 
@@ -287,8 +346,19 @@ impl Optimiser for BurnOptimiser {
         self.states = if moments.steps == 0 {
             vec![None; self.tensors.len()]
         } else {
-            let pairs = self.tensors_of(&moments.first).into_iter().zip(self.tensors_of(&moments.second));
-            pairs.map(|(first, second)| Some(AdamState::new(AdaptiveMomentumState::new(moments.steps as usize, first, second)))).collect()
+            let pairs = self
+                .tensors_of(&moments.first)
+                .into_iter()
+                .zip(self.tensors_of(&moments.second));
+            pairs
+                .map(|(first, second)| {
+                    Some(AdamState::new(AdaptiveMomentumState::new(
+                        moments.steps as usize,
+                        first,
+                        second,
+                    )))
+                })
+                .collect()
         };
     }
 }

@@ -100,7 +100,10 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError`].
     pub fn load(path: &Path) -> Result<Self, CheckpointError> {
-        let unreadable = |reason: String| CheckpointError::Unreadable { path: path.to_owned(), reason };
+        let unreadable = |reason: String| CheckpointError::Unreadable {
+            path: path.to_owned(),
+            reason,
+        };
         let checkpoint: Self = serde_json::from_slice(&read(path)?).map_err(|e| unreadable(e.to_string()))?;
         if checkpoint.format != "nmt-checkpoint" || checkpoint.version != CHECKPOINT_VERSION {
             return Err(unreadable(format!(
@@ -124,11 +127,21 @@ impl Checkpoint {
         backend: Backend,
         parameters: usize,
     ) -> Result<(), CheckpointError> {
-        let other = |what| Err(CheckpointError::Other { path: path.to_owned(), what });
+        let other = |what| {
+            Err(CheckpointError::Other {
+                path: path.to_owned(),
+                what,
+            })
+        };
         // More epochs are more of the same only where the step size does not depend on their number.
         let may_grow = config.schedule == Schedule::Constant && config.seeds == 1;
         let epochs = if may_grow { config.epochs } else { self.config.epochs };
-        if (TrainConfig { epochs, checkpoint_every: config.checkpoint_every, ..self.config.clone() }) != *config {
+        if (TrainConfig {
+            epochs,
+            checkpoint_every: config.checkpoint_every,
+            ..self.config.clone()
+        }) != *config
+        {
             return other("training configuration");
         }
         if self.seed != seed {
@@ -142,10 +155,19 @@ impl Checkpoint {
         }
         let done = self.history.len() as u64;
         if done > config.epochs * config.seeds {
-            return Err(CheckpointError::Further { path: path.to_owned(), done, epochs: config.epochs * config.seeds });
+            return Err(CheckpointError::Further {
+                path: path.to_owned(),
+                done,
+                epochs: config.epochs * config.seeds,
+            });
         }
         let moments = &self.moments;
-        let lengths = [self.parameters.len(), self.best_parameters.len(), moments.first.len(), moments.second.len()];
+        let lengths = [
+            self.parameters.len(),
+            self.best_parameters.len(),
+            moments.first.len(),
+            moments.second.len(),
+        ];
         let numbers = [&self.parameters, &self.best_parameters, &moments.first, &moments.second];
         if lengths != [parameters; 4] || !numbers.iter().all(|n| n.iter().all(|x| x.is_finite())) {
             return Err(CheckpointError::Unreadable {
@@ -154,7 +176,10 @@ impl Checkpoint {
             });
         }
         if moments.steps == 0 || self.best_epoch == 0 || self.best_epoch > self.history.len() as u64 {
-            return Err(CheckpointError::Unreadable { path: path.to_owned(), reason: "its epochs contradict each other".to_owned() });
+            return Err(CheckpointError::Unreadable {
+                path: path.to_owned(),
+                reason: "its epochs contradict each other".to_owned(),
+            });
         }
         Ok(())
     }

@@ -7,7 +7,7 @@
 //! which take one where a step leaves them nothing to do. No thread waits for another while anything is left to be made.
 
 use super::Optimiser;
-use super::schedule::TrainError;
+use super::trainer::TrainError;
 use crate::dataset::build::normalise;
 use crate::dataset::file::Manifest;
 use crate::dataset::stream::Making;
@@ -67,9 +67,24 @@ impl Feed {
                 Some(stream.expecting(rows.len(), manifest.training.pixels))
             }
         };
-        let segments = if refresh > 0.0 { (1.0 / refresh).round().min(rows.len() as f64) as u64 } else { 1 };
-        let source = Source { seed, rows: rows.len(), blocks: blocks.len(), segments, stream };
-        let mut feed = Self { blocks, blocks_of_step: batch / LANES, source, next: None };
+        let segments = if refresh > 0.0 {
+            (1.0 / refresh).round().min(rows.len() as f64) as u64
+        } else {
+            1
+        };
+        let source = Source {
+            seed,
+            rows: rows.len(),
+            blocks: blocks.len(),
+            segments,
+            stream,
+        };
+        let mut feed = Self {
+            blocks,
+            blocks_of_step: batch / LANES,
+            source,
+            next: None,
+        };
         for epoch in (epochs + 1).saturating_sub(segments).max(2)..=epochs {
             let prepared = feed.source.prepare(epoch)?;
             feed.take_in(&prepared);
@@ -122,7 +137,9 @@ impl Feed {
             }
             Some(squared_error)
         });
-        let Some(squared_error) = squared_error else { return Ok(None) };
+        let Some(squared_error) = squared_error else {
+            return Ok(None);
+        };
         if more {
             self.next = Some(preparation.finish()?);
         }
@@ -140,7 +157,10 @@ impl Source {
     /// The rows that fresh ones replace before an epoch, and the pixel that they start from.
     fn segment(&self, epoch: u64) -> (Range<usize>, u64) {
         let (segment, rows) = ((epoch - 2) % self.segments, self.rows as u64);
-        ((segment * rows / self.segments) as usize..((segment + 1) * rows / self.segments) as usize, (epoch - 1) << 32)
+        (
+            (segment * rows / self.segments) as usize..((segment + 1) * rows / self.segments) as usize,
+            (epoch - 1) << 32,
+        )
     }
 
     /// Makes what an epoch needs on all threads.
@@ -171,7 +191,15 @@ impl<'a> Preparation<'a> {
             (Making::new(stream, pixel, range.len(), usize::MAX), range)
         });
         let left = AtomicUsize::new(making.as_ref().map_or(0, |(making, _)| making.tasks()));
-        Self { source, epoch, making, left, cancelled: AtomicBool::new(false), order: Mutex::default(), fresh: Mutex::default() }
+        Self {
+            source,
+            epoch,
+            making,
+            left,
+            cancelled: AtomicBool::new(false),
+            order: Mutex::default(),
+            fresh: Mutex::default(),
+        }
     }
 
     /// Hands all work to the scope's threads.
@@ -203,7 +231,10 @@ impl<'a> Preparation<'a> {
     fn place(&self, making: &Making<'_>, range: Range<usize>) {
         let placed = making.finish().map(|mut parts| {
             normalise(&mut parts.iter_mut().map(|part| part.weights_mut()).collect::<Vec<_>>());
-            let mut order: Vec<(u32, u32)> = (0..).zip(&parts).flat_map(|(p, part)| (0..part.len() as u32).map(move |row| (p, row))).collect();
+            let mut order: Vec<(u32, u32)> = (0..)
+                .zip(&parts)
+                .flat_map(|(p, part)| (0..part.len() as u32).map(move |row| (p, row)))
+                .collect();
             order.shuffle(&mut stream(self.source.seed, PURPOSE, (1 << 63) | self.epoch));
             let width = making.width();
             Blocks::from_fn(width, range.start % LANES, range.len(), |at| {
@@ -216,7 +247,15 @@ impl<'a> Preparation<'a> {
 
     fn finish(self) -> Result<Prepared, DatasetError> {
         let order = self.order.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let fresh = self.fresh.into_inner().unwrap_or_else(PoisonError::into_inner).transpose()?;
-        Ok(Prepared { epoch: self.epoch, order, fresh: self.making.map(|(_, range)| range.start).zip(fresh) })
+        let fresh = self
+            .fresh
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner)
+            .transpose()?;
+        Ok(Prepared {
+            epoch: self.epoch,
+            order,
+            fresh: self.making.map(|(_, range)| range.start).zip(fresh),
+        })
     }
 }

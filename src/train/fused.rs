@@ -17,8 +17,8 @@ use rayon::prelude::*;
 const CHUNK: usize = 128;
 
 /// Errors and their derivatives below these are 0: what they would add is lost in rounding, and denormal numbers would make every multiplication slow.
-const LEAST_ERROR: f32 = 1e-12;
-const LEAST_DERIVATIVE: f32 = 1e-18;
+const MIN_ERROR: f32 = 1e-12;
+const MIN_DERIVATIVE: f32 = 1e-18;
 
 /// What a task works in; made once.
 #[derive(Debug, Clone)]
@@ -37,11 +37,19 @@ struct Workspace {
 
 /// Gradient block: g\[k\]\[o\] += Σ x\[k\] d\[o\] over the rows of a tile, for inputs k.. of a layer.
 #[inline(always)]
-fn outer<S: Simd, const K: usize, const O: usize>(simd: S, k: usize, outputs: usize, x: &[Row], d: &[Row], g: &mut [Lanes]) {
+fn outer<S: Simd, const K: usize, const O: usize>(
+    simd: S,
+    k: usize,
+    outputs: usize,
+    x: &[Row],
+    d: &[Row],
+    g: &mut [Lanes],
+) {
     let x = &x[k..k + K];
     for o in (0..outputs).step_by(O) {
         let d = &d[o..o + O];
-        let mut sum: [[f32x16<S>; O]; K] = std::array::from_fn(|i| std::array::from_fn(|j| g[(k + i) * outputs + o + j].load(simd)));
+        let mut sum: [[f32x16<S>; O]; K] =
+            std::array::from_fn(|i| std::array::from_fn(|j| g[(k + i) * outputs + o + j].load(simd)));
         for v in 0..TILE {
             let x: [f32x16<S>; K] = std::array::from_fn(|i| x[i][v].load(simd));
             let d: [f32x16<S>; O] = std::array::from_fn(|j| d[j][v].load(simd));
@@ -97,7 +105,14 @@ fn pull_back<S: Simd>(simd: S, inputs: usize, outputs: usize, w: &[f32], d: &[Ro
 }
 
 #[inline(always)]
-fn pull_back_block<S: Simd, const K: usize, const V: usize>(simd: S, inputs: usize, outputs: usize, w: &[f32], d: &[Row], x: &mut [Row]) {
+fn pull_back_block<S: Simd, const K: usize, const V: usize>(
+    simd: S,
+    inputs: usize,
+    outputs: usize,
+    w: &[f32],
+    d: &[Row],
+    x: &mut [Row],
+) {
     let (d, x) = (&d[..outputs], &mut x[..inputs]);
     let zero = f32x16::splat(simd, 0.0);
     for v in (0..TILE).step_by(V) {
@@ -161,10 +176,10 @@ fn output<S: Simd>(
             }
         };
         let e = value - target;
-        let e = e.abs().simd_gt(splat(LEAST_ERROR)).select(e, zero);
+        let e = e.abs().simd_gt(splat(MIN_ERROR)).select(e, zero);
         error += weight * (e * e);
         let d = ((weight * e) * slope) * splat(scale);
-        let d = d.abs().simd_gt(splat(LEAST_DERIVATIVE)).select(d, zero);
+        let d = d.abs().simd_gt(splat(MIN_DERIVATIVE)).select(d, zero);
         bias += d;
         delta.store(d);
     }
@@ -197,13 +212,31 @@ fn fill(width: usize, batch: Batch<'_>, rows: &mut [Row]) {
 
 /// Forward and backward through a tile of any network without a hidden layer or with many.
 #[inline(always)]
-fn tile<S: Simd>(simd: S, sizes: &[usize], p: &[f32], answer: Answer, batch: Batch<'_>, work: &mut Workspace, scale: f32) -> f32x16<S> {
+fn tile<S: Simd>(
+    simd: S,
+    sizes: &[usize],
+    p: &[f32],
+    answer: Answer,
+    batch: Batch<'_>,
+    work: &mut Workspace,
+    scale: f32,
+) -> f32x16<S> {
     let Workspace { rows, delta, sums, .. } = work;
     fill(sizes[0], batch, rows);
     let (mut row, mut at) = hidden_layers(simd, sizes, p, rows);
     let last = sizes[sizes.len() - 1];
     // Without a hidden layer the inputs' own derivatives would overwrite them; they are filled anew for the next tile.
-    let error = output(simd, last, &p[at..], answer, batch, &mut rows[row..], delta, &mut sums[at..], scale);
+    let error = output(
+        simd,
+        last,
+        &p[at..],
+        answer,
+        batch,
+        &mut rows[row..],
+        delta,
+        &mut sums[at..],
+        scale,
+    );
     for index in (1..sizes.len()).rev() {
         let (inputs, outputs) = (sizes[index - 1], sizes[index]);
         at -= (inputs + 1) * outputs;
@@ -250,7 +283,12 @@ fn tile_of_two<S: Simd>(
 
 /// Sums the gradient of a chunk of a batch.
 #[inline(always)]
-fn chunk<S: Simd>(simd: S, batch: Batch<'_>, work: &mut Workspace, mut tile: impl FnMut(Batch<'_>, &mut Workspace) -> f32x16<S>) {
+fn chunk<S: Simd>(
+    simd: S,
+    batch: Batch<'_>,
+    work: &mut Workspace,
+    mut tile: impl FnMut(Batch<'_>, &mut Workspace) -> f32x16<S>,
+) {
     work.sums.fill(Lanes::ZERO);
     work.error = 0.0;
     for order in batch.order.chunks(TILE) {
@@ -317,7 +355,13 @@ impl Fused {
     }
 
     /// An optimiser on a given SIMD level.
-    pub fn at_level(level: Level, set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
+    pub fn at_level(
+        level: Level,
+        set: FeatureSet,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        config: &TrainConfig,
+    ) -> Self {
         let network = Padded::new(shapes);
         let count = network.count();
         Self {
@@ -352,11 +396,31 @@ impl Fused {
             };
             self.works.resize(chunks, work);
         }
-        let Self { network, answer, level, kernel, parameters, works, gradient, .. } = self;
+        let Self {
+            network,
+            answer,
+            level,
+            kernel,
+            parameters,
+            works,
+            gradient,
+            ..
+        } = self;
         let scale = 2.0 / rows as f32;
-        works[..chunks].par_iter_mut().zip(batch.order.par_chunks(CHUNK)).for_each(|(work, order)| {
-            kernel(*level, network.sizes(), parameters, *answer, Batch { order, ..batch }, work, scale);
-        });
+        works[..chunks]
+            .par_iter_mut()
+            .zip(batch.order.par_chunks(CHUNK))
+            .for_each(|(work, order)| {
+                kernel(
+                    *level,
+                    network.sizes(),
+                    parameters,
+                    *answer,
+                    Batch { order, ..batch },
+                    work,
+                    scale,
+                );
+            });
         gradient.copy_from_slice(&works[0].gradient);
         for work in &works[1..chunks] {
             for (g, part) in gradient.iter_mut().zip(&work.gradient) {

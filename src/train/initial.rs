@@ -43,7 +43,10 @@ pub fn layers(shapes: &[(usize, usize)], parameters: &[f32]) -> Result<Vec<Dense
         rest = tail;
         head.to_vec()
     };
-    shapes.iter().map(|&(inputs, outputs)| Dense::new(inputs, outputs, take(inputs * outputs), take(outputs))).collect()
+    shapes
+        .iter()
+        .map(|&(inputs, outputs)| Dense::new(inputs, outputs, take(inputs * outputs), take(outputs)))
+        .collect()
 }
 
 /// Number of parameters.

@@ -3,7 +3,7 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::Batch;
-use crate::features::{Answer, FeatureSet, MOST_LOG_ABSORBANCE};
+use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 
 /// A network being fitted one row after the other, in f64.
 pub struct Scalar {
@@ -16,7 +16,12 @@ pub struct Scalar {
 impl Scalar {
     /// An optimiser at the given weights.
     pub fn new(set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
-        Self { answer: set.answer(), shapes: shapes.to_vec(), parameters: parameters.to_vec(), adam: Adam::new(parameters.len(), config) }
+        Self {
+            answer: set.answer(),
+            shapes: shapes.to_vec(),
+            parameters: parameters.to_vec(),
+            adam: Adam::new(parameters.len(), config),
+        }
     }
 
     /// Squared error of one row, and its gradient added to `g`.
@@ -37,7 +42,8 @@ impl Scalar {
         let (value, slope) = match self.answer {
             Answer::Sigmoid => (s, s * (1.0 - s)),
             Answer::Fraction { column, offset } => {
-                let absorbance = (libm::exp(features[column].min(MOST_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
+                let absorbance =
+                    (libm::exp(features[column].min(MAX_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
                 let value = libm::exp(-absorbance * s);
                 (value, -value * absorbance * s * (1.0 - s))
             }
@@ -55,7 +61,15 @@ impl Scalar {
                 g[at + i * o + u] += delta[u];
             }
             let w = &self.parameters[at..at + i * o];
-            delta = (0..i).map(|k| if x[k] > 0.0 { (0..o).map(|u| f64::from(w[k * o + u]) * delta[u]).sum() } else { 0.0 }).collect();
+            delta = (0..i)
+                .map(|k| {
+                    if x[k] > 0.0 {
+                        (0..o).map(|u| f64::from(w[k * o + u]) * delta[u]).sum()
+                    } else {
+                        0.0
+                    }
+                })
+                .collect();
         }
         weight * e * e
     }

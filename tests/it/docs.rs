@@ -13,7 +13,10 @@ fn page() -> String {
 /// Fenced blocks of a language.
 fn blocks(text: &str, language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
-    text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+    text.split(&fence)
+        .skip(1)
+        .map(|rest| rest.split("```").next().unwrap().to_owned())
+        .collect()
 }
 
 fn export(format: Format) -> String {
@@ -23,8 +26,12 @@ fn export(format: Format) -> String {
 
 fn wgsl(source: &str) -> Result<(), String> {
     let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;
-    let mut validator = naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
-    validator.validate(&module).map(drop).map_err(|e| e.emit_to_string(source))
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+    validator
+        .validate(&module)
+        .map(drop)
+        .map_err(|e| e.emit_to_string(source))
 }
 
 /// Control: with a function of the export misspelt, no block that calls it compiles.
@@ -34,17 +41,29 @@ fn wgsl_compiles() {
     assert_eq!(blocks.len(), 3, "pass 1, pass 2, resolve");
     for block in &blocks {
         wgsl(&format!("{export}\n{block}")).unwrap();
-        assert!(wgsl(&format!("{export}\n{}", block.replace("nmt_moment_depth", "nmt_depth"))).is_err() || !block.contains("nmt_moment_depth"));
+        assert!(
+            wgsl(&format!("{export}\n{}", block.replace("nmt_moment_depth", "nmt_depth"))).is_err()
+                || !block.contains("nmt_moment_depth")
+        );
     }
     assert!(blocks[..2].iter().all(|b| b.contains("nmt_moment_depth")));
 }
 
 fn glslang(source: &str) -> std::io::Result<Result<(), String>> {
     let stdio = || Stdio::piped();
-    let mut child = Command::new("glslangValidator").args(["--stdin", "-S", "frag"]).stdin(stdio()).stdout(stdio()).stderr(stdio()).spawn()?;
+    let mut child = Command::new("glslangValidator")
+        .args(["--stdin", "-S", "frag"])
+        .stdin(stdio())
+        .stdout(stdio())
+        .stderr(stdio())
+        .spawn()?;
     child.stdin.take().unwrap().write_all(source.as_bytes())?;
     let output = child.wait_with_output()?;
-    Ok(if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stdout).into_owned()) })
+    Ok(if output.status.success() {
+        Ok(())
+    } else {
+        Err(String::from_utf8_lossy(&output.stdout).into_owned())
+    })
 }
 
 /// Control: as for WGSL.
@@ -55,7 +74,10 @@ fn glsl_compiles() {
     let whole = |block: &str| format!("#version 450\n{export}\n{block}");
     if let Err(why) = glslang(&whole(&blocks[0])) {
         let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-        assert!(!required.split(',').any(|tool| tool.trim() == "glslangValidator"), "glslangValidator is required: {why}");
+        assert!(
+            !required.split(',').any(|tool| tool.trim() == "glslangValidator"),
+            "glslangValidator is required: {why}"
+        );
         println!("skipped: glslangValidator: {why}");
         return;
     }
@@ -63,7 +85,11 @@ fn glsl_compiles() {
         glslang(&whole(block)).unwrap().unwrap();
     }
     for block in &blocks[..2] {
-        assert!(glslang(&whole(&block.replace("nmt_moment_depth", "nmt_depth"))).unwrap().is_err());
+        assert!(
+            glslang(&whole(&block.replace("nmt_moment_depth", "nmt_depth")))
+                .unwrap()
+                .is_err()
+        );
     }
 }
 
@@ -72,9 +98,14 @@ fn glsl_compiles() {
 fn links_lead_somewhere() {
     let page = page();
     let missing = |page: &str| -> Vec<String> {
-        let targets = page.split("](").skip(1).map(|rest| rest.split(')').next().unwrap().to_owned());
+        let targets = page
+            .split("](")
+            .skip(1)
+            .map(|rest| rest.split(')').next().unwrap().to_owned());
         let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-        targets.filter(|t| t.starts_with("../") && !docs.join(t).exists()).collect()
+        targets
+            .filter(|t| t.starts_with("../") && !docs.join(t).exists())
+            .collect()
     };
     assert!(page.matches("](../src/gpu").count() >= 3);
     assert_eq!(missing(&page), Vec::<String>::new());

@@ -25,22 +25,22 @@ use std::time::{Duration, Instant};
 pub struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
-static MOST_HELD: AtomicUsize = AtomicUsize::new(0);
+static MAX_HELD: AtomicUsize = AtomicUsize::new(0);
 static LARGEST: AtomicUsize = AtomicUsize::new(0);
 
 /// A single request of more than this fails [bytes].
-const MOST_REQUEST: usize = 1 << 30;
+const MAX_REQUEST: usize = 1 << 30;
 
 fn took(size: usize) {
     let held = HELD.fetch_add(size, Relaxed) + size;
-    MOST_HELD.fetch_max(held, Relaxed);
+    MAX_HELD.fetch_max(held, Relaxed);
     LARGEST.fetch_max(size, Relaxed);
 }
 
 // SAFETY: every request goes to the system's allocator as it is, or fails as a request may.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        if layout.size() > MOST_REQUEST {
+        if layout.size() > MAX_REQUEST {
             return std::ptr::null_mut();
         }
         took(layout.size());
@@ -48,7 +48,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        if layout.size() > MOST_REQUEST {
+        if layout.size() > MAX_REQUEST {
             return std::ptr::null_mut();
         }
         took(layout.size());
@@ -61,7 +61,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, at: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        if size > MOST_REQUEST {
+        if size > MAX_REQUEST {
             return std::ptr::null_mut();
         }
         took(size);
@@ -280,7 +280,10 @@ fn watch(start: Instant) {
                 std::thread::sleep(Duration::from_secs(1));
                 let began = CASE_BEGAN.load(Relaxed);
                 if began > 0 && start.elapsed().as_millis() as u64 > began + 60_000 {
-                    eprintln!("a file takes more than a minute; it is the last one written under {}", folder("").display());
+                    eprintln!(
+                        "a file takes more than a minute; it is the last one written under {}",
+                        folder("").display()
+                    );
                     std::process::abort();
                 }
             }
@@ -290,7 +293,10 @@ fn watch(start: Instant) {
 
 fn start() -> Instant {
     static START: Mutex<Option<Instant>> = Mutex::new(None);
-    *START.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| Instant::now() - Duration::from_millis(1))
+    *START
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .get_or_insert_with(|| Instant::now() - Duration::from_millis(1))
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -302,7 +308,10 @@ fn fresh_folder(parser: &Parser<'_>) -> PathBuf {
     let place = folder(&format!("{}-{}", parser.name, std::process::id()));
     drop(std::fs::remove_dir_all(&place));
     std::fs::create_dir_all(&place).unwrap();
-    parser.seeds.iter().for_each(|(name, bytes)| std::fs::write(place.join(name), bytes).unwrap());
+    parser
+        .seeds
+        .iter()
+        .for_each(|(name, bytes)| std::fs::write(place.join(name), bytes).unwrap());
     place
 }
 
@@ -315,7 +324,9 @@ const PARSERS: u32 = 12;
 
 fn budget(cases: u32) -> Budget {
     match std::env::var("NMT_FUZZ_SECONDS") {
-        Ok(text) => Budget::Time(Duration::from_secs_f64(text.parse::<f64>().expect("NMT_FUZZ_SECONDS is a number") / f64::from(PARSERS))),
+        Ok(text) => Budget::Time(Duration::from_secs_f64(
+            text.parse::<f64>().expect("NMT_FUZZ_SECONDS is a number") / f64::from(PARSERS),
+        )),
         Err(_) => Budget::Cases(cases),
     }
 }
@@ -346,7 +357,10 @@ fn quietly<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
     QUIET.set(false);
     outcome.unwrap_or_else(|panic| {
-        let text = panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+        let text = panic
+            .downcast_ref::<String>()
+            .cloned()
+            .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
         Err(format!("a panic: {}", text.unwrap_or_default()))
     })
 }
@@ -355,17 +369,24 @@ fn quietly<T>(work: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
 fn examine(parser: &Parser<'_>, place: &Path, name: &str, bytes: &[u8]) -> Result<bool, String> {
     std::fs::write(place.join(name), bytes).unwrap();
     let before = HELD.load(Relaxed);
-    MOST_HELD.store(before, Relaxed);
+    MAX_HELD.store(before, Relaxed);
     LARGEST.store(0, Relaxed);
     CASE_BEGAN.store(start().elapsed().as_millis() as u64, Relaxed);
     // Shrinking meets the same panic often; its message comes with the smallest file.
     let outcome = quietly(|| (parser.read)(place, name));
     CASE_BEGAN.store(0, Relaxed);
-    let (held, largest) = (MOST_HELD.load(Relaxed).saturating_sub(before), LARGEST.load(Relaxed));
-    std::fs::write(place.join(name), &parser.seeds.iter().find(|s| s.0 == name).expect("a seed's name").1).unwrap();
+    let (held, largest) = (MAX_HELD.load(Relaxed).saturating_sub(before), LARGEST.load(Relaxed));
+    std::fs::write(
+        place.join(name),
+        &parser.seeds.iter().find(|s| s.0 == name).expect("a seed's name").1,
+    )
+    .unwrap();
     let most = most_memory(bytes.len());
     if held > most || largest > most {
-        return Err(format!("{} bytes made it hold {held} and ask for {largest} bytes at once; {most} are allowed", bytes.len()));
+        return Err(format!(
+            "{} bytes made it hold {held} and ask for {largest} bytes at once; {most} are allowed",
+            bytes.len()
+        ));
     }
     outcome
 }
@@ -377,7 +398,11 @@ fn refuses(parser: &Parser<'_>, findings: &[(&str, &str, &str)]) {
     for (name, from, to) in findings {
         let seed = String::from_utf8(parser.seeds.iter().find(|s| s.0 == *name).unwrap().1.clone()).unwrap();
         assert!(seed.contains(from), "{name} has no {from}");
-        assert_eq!(examine(parser, &place, name, seed.replacen(from, to, 1).as_bytes()), Ok(false), "{name}: {to}");
+        assert_eq!(
+            examine(parser, &place, name, seed.replacen(from, to, 1).as_bytes()),
+            Ok(false),
+            "{name}: {to}"
+        );
     }
 }
 
@@ -400,7 +425,10 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
         changes.iter().for_each(|c| c.apply(&mut bytes, &parser.seeds));
         (name.clone(), bytes)
     };
-    let changes = prop_oneof![prop::collection::vec(change(), 1..5), prop::collection::vec(number_change(), 1..4)];
+    let changes = prop_oneof![
+        prop::collection::vec(change(), 1..5),
+        prop::collection::vec(number_change(), 1..4)
+    ];
     let strategy = (any::<Index>(), changes);
     let began = Instant::now();
     for batch in 0u64.. {
@@ -412,8 +440,16 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed().to_le_bytes());
         bytes[8..16].copy_from_slice(&batch.to_le_bytes());
-        bytes[16..].iter_mut().zip(parser.name.bytes()).for_each(|(b, c)| *b = c);
-        let config = Config { cases, failure_persistence: None, max_shrink_iters: 3000, ..Config::default() };
+        bytes[16..]
+            .iter_mut()
+            .zip(parser.name.bytes())
+            .for_each(|(b, c)| *b = c);
+        let config = Config {
+            cases,
+            failure_persistence: None,
+            max_shrink_iters: 3000,
+            ..Config::default()
+        };
         let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
         let outcome = runner.run(&strategy, |(which, changes)| {
             let (name, bytes) = mutated(&which, &changes);
@@ -430,7 +466,12 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
             std::fs::write(&kept, &file).unwrap();
             drop(turn);
             let changes = format!("{changes:?}");
-            let reason = format!("{} on {}, seed {}, batch {batch}, of {name} by {changes}: {reason}", parser.name, kept.display(), seed());
+            let reason = format!(
+                "{} on {}, seed {}, batch {batch}, of {name} by {changes}: {reason}",
+                parser.name,
+                kept.display(),
+                seed()
+            );
             return Err(Broken { reason, file });
         }
     }
@@ -443,18 +484,30 @@ fn check(parser: &Parser<'_>, cases: u32) {
     let (read, refused) = fuzz(parser, budget(cases)).unwrap_or_else(|broken| panic!("{}", broken.reason));
     println!("{}: {read} files read, {refused} refused", parser.name);
     let summed = ["npz", "dataset"].contains(&parser.name);
-    assert!((read > 0 || summed) && refused > 0, "{}: {read} files read, {refused} refused", parser.name);
+    assert!(
+        (read > 0 || summed) && refused > 0,
+        "{}: {read} files read, {refused} refused",
+        parser.name
+    );
 }
 
 fn seeds(paths: &[&str]) -> Vec<(String, Vec<u8>)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let name = |p: &str| Path::new(p).file_name().unwrap().to_str().unwrap().to_owned();
-    paths.iter().map(|p| (name(p), std::fs::read(root.join(p)).unwrap())).collect()
+    paths
+        .iter()
+        .map(|p| (name(p), std::fs::read(root.join(p)).unwrap()))
+        .collect()
 }
 
 /// Whether a list holds what every list promises.
 fn valid(list: &FragmentList) -> Result<bool, String> {
-    let again = FragmentList::new(list.offsets().to_vec(), list.view_z().to_vec(), list.alpha().to_vec(), list.color().map(<[[f32; 3]]>::to_vec));
+    let again = FragmentList::new(
+        list.offsets().to_vec(),
+        list.view_z().to_vec(),
+        list.alpha().to_vec(),
+        list.color().map(<[[f32; 3]]>::to_vec),
+    );
     again.map_err(|e| format!("an invalid list was read: {e}"))?;
     if let Some((w, h)) = list.size()
         && u64::from(w) * u64::from(h) != list.pixels() as u64
@@ -477,13 +530,24 @@ fn list<E: std::fmt::Display>(read: Result<FragmentList, E>, name: &str) -> Resu
 
 fn refused(error: &impl std::fmt::Display, name: &str) -> Result<bool, String> {
     let text = error.to_string();
-    if text.contains(name) { Ok(false) } else { Err(format!("an error that names no file: {text}")) }
+    if text.contains(name) {
+        Ok(false)
+    } else {
+        Err(format!("an error that names no file: {text}"))
+    }
 }
 
 #[test]
 fn archives_of_fragments() {
     let read = |folder: &Path, name: &str| list(scene::npz::read(&folder.join(name)), name);
-    check(&Parser { name: "npz", seeds: seeds(&["data/sample.npz"]), read: Box::new(read) }, 300);
+    check(
+        &Parser {
+            name: "npz",
+            seeds: seeds(&["data/sample.npz"]),
+            read: Box::new(read),
+        },
+        300,
+    );
 }
 
 /// The arrays of an archive, each damaged before it is packed: a checksum would refuse them otherwise.
@@ -492,12 +556,25 @@ fn arrays_of_fragments() {
     use ndarray::{ArrayView1, ArrayView2, arr0};
     // Enough of them that more bytes are numbers than headers.
     let n = 57;
-    let offsets: Vec<u64> = (0..=20).map(|p| 3 * p - u64::from(p > 4) - 2 * u64::from(p > 9)).collect();
+    let offsets: Vec<u64> = (0..=20)
+        .map(|p| 3 * p - u64::from(p > 4) - 2 * u64::from(p > 9))
+        .collect();
     let arrays = vec![
         ("offsets", npy::encode(ArrayView1::from(&offsets))),
-        ("view_z", npy::encode(ArrayView1::from(&(0..n).map(|i| 1.0 + i as f32).collect::<Vec<f32>>()))),
-        ("alpha", npy::encode(ArrayView1::from(&(0..n).map(|i| i as f32 / n as f32).collect::<Vec<f32>>()))),
-        ("color", npy::encode(ArrayView2::from(vec![[0.5f32, 0.0, 1.0]; n].as_slice()))),
+        (
+            "view_z",
+            npy::encode(ArrayView1::from(&(0..n).map(|i| 1.0 + i as f32).collect::<Vec<f32>>())),
+        ),
+        (
+            "alpha",
+            npy::encode(ArrayView1::from(
+                &(0..n).map(|i| i as f32 / n as f32).collect::<Vec<f32>>(),
+            )),
+        ),
+        (
+            "color",
+            npy::encode(ArrayView2::from(vec![[0.5f32, 0.0, 1.0]; n].as_slice())),
+        ),
         ("width", npy::encode(arr0(20u32).view())),
         ("height", npy::encode(arr0(1i64).view())),
         ("near", npy::encode(arr0(0.5f32).view())),
@@ -519,24 +596,54 @@ fn arrays_of_fragments() {
         drop(npy::read_npy::<u64>(&folder.join(name)));
         list(scene::npz::read(&folder.join("list.npz")), "list.npz")
     };
-    let seeds = arrays.iter().map(|(name, bytes)| (format!("{name}.npy"), bytes.clone())).collect();
-    check(&Parser { name: "npy", seeds, read: Box::new(read) }, 600);
+    let seeds = arrays
+        .iter()
+        .map(|(name, bytes)| (format!("{name}.npy"), bytes.clone()))
+        .collect();
+    check(
+        &Parser {
+            name: "npy",
+            seeds,
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
 #[test]
 fn deep_images() {
-    let names = ["scanline_no", "scanline_rle", "scanline_zips", "tiled_no", "tiled_rle", "tiled_zips"].map(|n| format!("tests/data/deep/{n}.exr"));
+    let names = [
+        "scanline_no",
+        "scanline_rle",
+        "scanline_zips",
+        "tiled_no",
+        "tiled_rle",
+        "tiled_zips",
+    ]
+    .map(|n| format!("tests/data/deep/{n}.exr"));
     let read = |folder: &Path, name: &str| {
         let path = folder.join(name);
-        drop(scene::exr::read(&path, &scene::exr::ReadOptions { volume_slices: None }));
+        drop(scene::exr::read(
+            &path,
+            &scene::exr::ReadOptions { volume_slices: None },
+        ));
         list(scene::exr::read(&path, &scene::exr::ReadOptions::default()), name)
     };
-    check(&Parser { name: "exr", seeds: seeds(&names.each_ref().map(String::as_str)), read: Box::new(read) }, 600);
+    check(
+        &Parser {
+            name: "exr",
+            seeds: seeds(&names.each_ref().map(String::as_str)),
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
-const CAMERA: &str =
-    "[camera]\nposition = [4.0, 2.6, 6.0]\nlook_at = [0.6, 0.6, -0.5]\nvertical_fov = 48.0\nwidth = 16\nheight = 16\nnear = 0.5\nfar = 50.0\n";
-const SMALL: scene::Options = scene::Options { size: Some((16, 16)), seed: None };
+const CAMERA: &str = "[camera]\nposition = [4.0, 2.6, 6.0]\nlook_at = [0.6, 0.6, -0.5]\nvertical_fov = 48.0\nwidth = 16\nheight = 16\nnear = 0.5\nfar = 50.0\n";
+const SMALL: scene::Options = scene::Options {
+    size: Some((16, 16)),
+    seed: None,
+};
 
 /// What a camera sees of a mesh in a folder.
 fn seen(folder: &Path, mesh: &str, about: &str) -> Result<bool, String> {
@@ -557,14 +664,28 @@ fn obj_meshes_and_their_materials() {
         usemtl glass\ns 1\nf 1/1/1 2/2/1 3/3/2\nf -4//-1 -3//1 -1//2\nf 1/1 2/2 3/3 4/1\nl 1 2 3\np 1 2\nusemtl tiles\nf 1 2 3 4 2\n";
     let mut seeds = seeds(&["data/roof.obj", "data/roof.mtl"]);
     seeds.push(("full.obj".to_owned(), full.as_bytes().to_vec()));
-    let parser = Parser { name: "obj", seeds, read: Box::new(read) };
-    refuses(&parser, &[("roof.mtl", "Kd 0.3 0.7 0.9", "Kd"), ("full.obj", "-1//2", "-1//6148914691236517206")]);
+    let parser = Parser {
+        name: "obj",
+        seeds,
+        read: Box::new(read),
+    };
+    refuses(
+        &parser,
+        &[
+            ("roof.mtl", "Kd 0.3 0.7 0.9", "Kd"),
+            ("full.obj", "-1//2", "-1//6148914691236517206"),
+        ],
+    );
     check(&parser, 600);
 }
 
 /// A mesh of two triangles, one of them by indices, its nodes moved and turned, with a material that blends.
 fn gltf(uri: Option<&str>) -> (String, Vec<u8>) {
-    let mut data: Vec<u8> = [[-1.0f32, 0.0, 0.0], [2.0, 0.0, -1.0], [0.0, 2.0, 0.5]].as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let mut data: Vec<u8> = [[-1.0f32, 0.0, 0.0], [2.0, 0.0, -1.0], [0.0, 2.0, 0.5]]
+        .as_flattened()
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
     data.extend([0u16, 1, 2, 0].iter().flat_map(|i| i.to_le_bytes()));
     let uri = uri.map_or(String::new(), |u| format!(r#","uri":"{u}""#));
     let json = format!(
@@ -598,15 +719,30 @@ fn glb() -> Vec<u8> {
 #[test]
 fn gltf_meshes() {
     let embedded = "data:application/octet-stream;base64,AACAvwAAAAAAAAAAAAAAQAAAAAAAAIC/AAAAAAAAAEAAAAA/AAABAAIAAAA=";
-    let seeds = vec![("mesh.glb".to_owned(), glb()), ("mesh.gltf".to_owned(), gltf(Some(embedded)).0.into_bytes())];
+    let seeds = vec![
+        ("mesh.glb".to_owned(), glb()),
+        ("mesh.gltf".to_owned(), gltf(Some(embedded)).0.into_bytes()),
+    ];
     let read = |folder: &Path, name: &str| seen(folder, name, "mesh.");
-    let parser = Parser { name: "gltf", seeds, read: Box::new(read) };
+    let parser = Parser {
+        name: "gltf",
+        seeds,
+        read: Box::new(read),
+    };
     let position = r#"{"attributes":{"POSITION":0},"material":0}"#;
     refuses(
         &parser,
         &[
-            ("mesh.gltf", position, r#"{"attributes":{"POSITION":16777216},"material":0}"#),
-            ("mesh.gltf", r#""componentType":5126,"count":3"#, r#""componentType":5126,"count":1000000000"#),
+            (
+                "mesh.gltf",
+                position,
+                r#"{"attributes":{"POSITION":16777216},"material":0}"#,
+            ),
+            (
+                "mesh.gltf",
+                r#""componentType":5126,"count":3"#,
+                r#""componentType":5126,"count":1000000000"#,
+            ),
         ],
     );
     check(&parser, 600);
@@ -618,7 +754,10 @@ fn scene_files() {
     let read = |folder: &Path, name: &str| {
         let bytes = std::fs::read(folder.join(name)).unwrap();
         let Ok(text) = std::str::from_utf8(&bytes) else {
-            return list(SceneFile::read(&folder.join(name)).and_then(|s| scene::build(&s, &SMALL)), name);
+            return list(
+                SceneFile::read(&folder.join(name)).and_then(|s| scene::build(&s, &SMALL)),
+                name,
+            );
         };
         // Meshes are named from the folder of the scene file.
         match SceneFile::parse(&root.join("configs/scenes").join(name), text) {
@@ -627,7 +766,14 @@ fn scene_files() {
             Err(error) => refused(&error, name),
         }
     };
-    check(&Parser { name: "scene", seeds: seeds(&["configs/scenes/house.toml", "configs/scenes/smoke.toml"]), read: Box::new(read) }, 150);
+    check(
+        &Parser {
+            name: "scene",
+            seeds: seeds(&["configs/scenes/house.toml", "configs/scenes/smoke.toml"]),
+            read: Box::new(read),
+        },
+        150,
+    );
 }
 
 #[test]
@@ -638,8 +784,8 @@ fn models() {
         match model::file::load(&path) {
             Err(error) => refused(&error, name),
             Ok(mlp) => {
-                let again =
-                    model::file::from_json(model::file::to_json(&mlp).as_bytes(), &path).map_err(|e| format!("what was read is not written: {e}"))?;
+                let again = model::file::from_json(model::file::to_json(&mlp).as_bytes(), &path)
+                    .map_err(|e| format!("what was read is not written: {e}"))?;
                 if again != mlp {
                     return Err("what was read is not what is written".to_owned());
                 }
@@ -652,8 +798,19 @@ fn models() {
             }
         }
     };
-    let names = ["models/small.json", "models/paper.json", "models/deep-weighted-blended.json"];
-    check(&Parser { name: "model", seeds: seeds(&names), read: Box::new(read) }, 200);
+    let names = [
+        "models/small.json",
+        "models/paper.json",
+        "models/deep-weighted-blended.json",
+    ];
+    check(
+        &Parser {
+            name: "model",
+            seeds: seeds(&names),
+            read: Box::new(read),
+        },
+        200,
+    );
 }
 
 /// What a configuration file is made of.
@@ -674,8 +831,12 @@ struct Configuration {
 fn configurations() {
     let read = |folder: &Path, name: &str| {
         let bytes = std::fs::read(folder.join(name)).unwrap();
-        let Ok(text) = std::str::from_utf8(&bytes) else { return Ok(false) };
-        let Ok(config) = toml::from_str::<Configuration>(text) else { return Ok(false) };
+        let Ok(text) = std::str::from_utf8(&bytes) else {
+            return Ok(false);
+        };
+        let Ok(config) = toml::from_str::<Configuration>(text) else {
+            return Ok(false);
+        };
         if config.dataset.is_some_and(|d| d.validate().is_err()) {
             return Ok(false);
         }
@@ -693,8 +854,20 @@ fn configurations() {
             Some(Ok(synth)) => valid(&synth.pixels(Purpose::Training, 0, 4)),
         }
     };
-    let names = ["configs/paper.toml", "configs/recommended.toml", "configs/sample.toml", "configs/deep-weighted-blended.toml"];
-    check(&Parser { name: "config", seeds: seeds(&names), read: Box::new(read) }, 600);
+    let names = [
+        "configs/paper.toml",
+        "configs/recommended.toml",
+        "configs/sample.toml",
+        "configs/deep-weighted-blended.toml",
+    ];
+    check(
+        &Parser {
+            name: "config",
+            seeds: seeds(&names),
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
 #[test]
@@ -709,10 +882,20 @@ fn checkpoints() {
         dataset_hash: "abc".to_owned(),
         backend: Backend::Fused,
         parameters: parameters.clone(),
-        moments: AdamMoments { steps: 12, first: parameters.clone(), second: parameters.clone() },
+        moments: AdamMoments {
+            steps: 12,
+            first: parameters.clone(),
+            second: parameters.clone(),
+        },
         best_parameters: parameters,
         best_epoch: 2,
-        history: vec![Losses { training: 0.5, validation: 0.25 }; 3],
+        history: vec![
+            Losses {
+                training: 0.5,
+                validation: 0.25
+            };
+            3
+        ],
     };
     let read = |folder: &Path, name: &str| {
         let path = folder.join(name);
@@ -725,7 +908,14 @@ fn checkpoints() {
         }
     };
     let seeds = vec![("m.checkpoint.json".to_owned(), serde_json::to_vec(&whole).unwrap())];
-    check(&Parser { name: "checkpoint", seeds, read: Box::new(read) }, 600);
+    check(
+        &Parser {
+            name: "checkpoint",
+            seeds,
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
 #[test]
@@ -736,35 +926,88 @@ fn datasets() {
         // The other files stand where they were generated.
         std::fs::copy(folder.join(name), at.path(&format!("d/{name}"))).unwrap();
         match dataset::file::read_from(Path::new(&at.path("d"))) {
-            Ok(dataset) => Ok(dataset.training.features.len() == dataset.training.len() * dataset.training.feature_set.width()),
+            Ok(dataset) => {
+                Ok(dataset.training.features.len() == dataset.training.len() * dataset.training.feature_set.width())
+            }
             Err(error) => refused(&error, "d/"),
         }
     };
-    let seeds = vec![("manifest.json".to_owned(), std::fs::read(at.path("d/manifest.json")).unwrap())];
-    check(&Parser { name: "dataset", seeds, read: Box::new(read) }, 200);
+    let seeds = vec![(
+        "manifest.json".to_owned(),
+        std::fs::read(at.path("d/manifest.json")).unwrap(),
+    )];
+    check(
+        &Parser {
+            name: "dataset",
+            seeds,
+            read: Box::new(read),
+        },
+        200,
+    );
 }
 
 #[test]
 fn names_of_methods() {
-    let sample = FragmentList::new(vec![0, 3, 3], vec![1.0, 3.0, 2.0], vec![0.5, 1.0, 0.0], None).unwrap().with_size(2, 1).unwrap();
+    let sample = FragmentList::new(vec![0, 3, 3], vec![1.0, 3.0, 2.0], vec![0.5, 1.0, 0.0], None)
+        .unwrap()
+        .with_size(2, 1)
+        .unwrap();
     let read = |folder: &Path, name: &str| {
         let bytes = std::fs::read(folder.join(name)).unwrap();
-        let Ok(method) = oit::parse(&String::from_utf8_lossy(&bytes)) else { return Ok(false) };
-        let context = Context { planes: CameraPlanes::new(0.5, 9.0).ok(), depth_range: None };
+        let Ok(method) = oit::parse(&String::from_utf8_lossy(&bytes)) else {
+            return Ok(false);
+        };
+        let context = Context {
+            planes: CameraPlanes::new(0.5, 9.0).ok(),
+            depth_range: None,
+        };
         let accumulated = method.accumulate(&sample, context).map_err(|e| e.to_string())?;
-        if oit::weights(&sample, &*accumulated).len() == 3 { Ok(true) } else { Err("as many weights as fragments are expected".to_owned()) }
+        if oit::weights(&sample, &*accumulated).len() == 3 {
+            Ok(true)
+        } else {
+            Err("as many weights as fragments are expected".to_owned())
+        }
     };
-    let seeds = oit::all_names().into_iter().enumerate().map(|(i, name)| (format!("{i}.txt"), name.into_bytes())).collect();
-    check(&Parser { name: "method", seeds, read: Box::new(read) }, 600);
+    let seeds = oit::all_names()
+        .into_iter()
+        .enumerate()
+        .map(|(i, name)| (format!("{i}.txt"), name.into_bytes()))
+        .collect();
+    check(
+        &Parser {
+            name: "method",
+            seeds,
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
 #[test]
 fn reports() {
     let at = crate::cli::Workplace::new();
     crate::cli::nmt(&["run", &at.config(), "--out", &at.path("r/run"), "--quiet"]).success();
-    let scene = ["--fragments", "spheres", "--size", "8x8", "--methods", "moment-power-4,weighted-average"];
+    let scene = [
+        "--fragments",
+        "spheres",
+        "--size",
+        "8x8",
+        "--methods",
+        "moment-power-4,weighted-average",
+    ];
     crate::cli::nmt(&[&["evaluate", "--out", &at.path("r/e"), "--quiet"][..], &scene].concat()).success();
-    let bench = ["bench", "generate", "--pairs", "256", "--repeat", "2", "--sample-seconds", "1e-4", "--json", "--quiet"];
+    let bench = [
+        "bench",
+        "generate",
+        "--pairs",
+        "256",
+        "--repeat",
+        "2",
+        "--sample-seconds",
+        "1e-4",
+        "--json",
+        "--quiet",
+    ];
     let bench = crate::cli::nmt(&bench).success().get_output().stdout.clone();
     let file = |name: &str| std::fs::read(at.path(name)).unwrap();
     let seeds = vec![
@@ -788,7 +1031,14 @@ fn reports() {
             }
         }
     };
-    check(&Parser { name: "report", seeds, read: Box::new(read) }, 300);
+    check(
+        &Parser {
+            name: "report",
+            seeds,
+            read: Box::new(read),
+        },
+        300,
+    );
 }
 
 /// The machinery finds what it looks for: a parser that trusts a length and panics, one that takes the memory it is told to, and one that returns what
@@ -802,18 +1052,57 @@ fn bad_parsers_are_found() {
         Some((u32::from_le_bytes(head) as usize, bytes))
     };
     let trusting = |folder: &Path, _: &str| Ok(length(folder).is_some_and(|(n, bytes)| bytes[4..4 + n].len() == n));
-    let greedy = |folder: &Path, _: &str| Ok(length(folder).is_some_and(|(n, _)| vec![0u8; n.min(MOST_REQUEST)].len() == n));
+    let greedy =
+        |folder: &Path, _: &str| Ok(length(folder).is_some_and(|(n, _)| vec![0u8; n.min(MAX_REQUEST)].len() == n));
     let careless = |folder: &Path, _: &str| match length(folder) {
         Some((n, _)) if n > 1_000_000 => Err("invalid".to_owned()),
         other => Ok(other.is_some()),
     };
     let budget = Budget::Cases(1500);
-    let panics = fuzz(&Parser { name: "trusting", seeds: seeds(), read: Box::new(trusting) }, budget).unwrap_err();
-    let memory = fuzz(&Parser { name: "greedy", seeds: seeds(), read: Box::new(greedy) }, budget).unwrap_err();
-    let invalid = fuzz(&Parser { name: "careless", seeds: seeds(), read: Box::new(careless) }, budget).unwrap_err();
-    assert!(memory.reason.contains("bytes at once") && invalid.reason.contains("invalid"), "{memory:?} {invalid:?}");
-    assert!(panics.reason.contains("out of range") && panics.file.len() <= 128, "{panics:?}");
+    let panics = fuzz(
+        &Parser {
+            name: "trusting",
+            seeds: seeds(),
+            read: Box::new(trusting),
+        },
+        budget,
+    )
+    .unwrap_err();
+    let memory = fuzz(
+        &Parser {
+            name: "greedy",
+            seeds: seeds(),
+            read: Box::new(greedy),
+        },
+        budget,
+    )
+    .unwrap_err();
+    let invalid = fuzz(
+        &Parser {
+            name: "careless",
+            seeds: seeds(),
+            read: Box::new(careless),
+        },
+        budget,
+    )
+    .unwrap_err();
+    assert!(
+        memory.reason.contains("bytes at once") && invalid.reason.contains("invalid"),
+        "{memory:?} {invalid:?}"
+    );
+    assert!(
+        panics.reason.contains("out of range") && panics.file.len() <= 128,
+        "{panics:?}"
+    );
     // The same seed finds the same.
-    let again = fuzz(&Parser { name: "careless", seeds: seeds(), read: Box::new(careless) }, budget).unwrap_err();
+    let again = fuzz(
+        &Parser {
+            name: "careless",
+            seeds: seeds(),
+            read: Box::new(careless),
+        },
+        budget,
+    )
+    .unwrap_err();
     assert_eq!(again.file, invalid.file);
 }

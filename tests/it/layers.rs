@@ -67,7 +67,10 @@ fn imports(text: &str) -> Vec<String> {
 /// What a module may not import: anything on its own line but itself, or further down.
 fn violations(module: &str, text: &str) -> Vec<String> {
     let own = level(module).unwrap_or_else(|| panic!("module '{module}' has no place in the order of layers"));
-    imports(text).into_iter().filter(|name| name != module && level(name).is_some_and(|l| l >= own)).collect()
+    imports(text)
+        .into_iter()
+        .filter(|name| name != module && level(name).is_some_and(|l| l >= own))
+        .collect()
 }
 
 #[test]
@@ -78,13 +81,23 @@ fn data_flows_down() {
     assert!(files.len() > 20, "the sources were not found");
     for file in files {
         let relative = file.strip_prefix(&src).unwrap();
-        let Some(module) = relative.components().next().filter(|_| relative.components().count() > 1) else { continue };
+        let Some(module) = relative
+            .components()
+            .next()
+            .filter(|_| relative.components().count() > 1)
+        else {
+            continue;
+        };
         let module = module.as_os_str().to_str().unwrap();
         let text = std::fs::read_to_string(&file).unwrap();
         // Tests may reach anywhere.
         let code = text.split("#[cfg(test)]").next().unwrap();
         let wrong = violations(module, code);
-        assert!(wrong.is_empty(), "{} imports from below it: {wrong:?}", relative.display());
+        assert!(
+            wrong.is_empty(),
+            "{} imports from below it: {wrong:?}",
+            relative.display()
+        );
     }
 }
 
@@ -97,7 +110,11 @@ fn burn_and_clap_stay_at_home() {
     for file in files {
         let text = std::fs::read_to_string(&file).unwrap();
         for (word, home) in [("use burn::", "train"), ("use clap::", "cli"), ("indicatif::", "cli")] {
-            assert!(!text.contains(word) || file.starts_with(src.join(home)), "{} uses {word}", file.display());
+            assert!(
+                !text.contains(word) || file.starts_with(src.join(home)),
+                "{} uses {word}",
+                file.display()
+            );
         }
     }
 }
@@ -106,7 +123,16 @@ fn burn_and_clap_stay_at_home() {
 #[test]
 fn violations_are_seen() {
     assert_eq!(violations("pixel", "use crate::moments::power;"), ["moments"]);
-    assert_eq!(violations("numeric", "fn f() { crate::pixel::absorbance(0.5); }"), ["pixel"]);
-    assert_eq!(violations("synth", "use crate::{numeric::rng, scene::{npz, obj}, train};"), ["scene", "train"]);
-    assert_eq!(violations("cli", "use crate::{train, check::check};"), Vec::<String>::new());
+    assert_eq!(
+        violations("numeric", "fn f() { crate::pixel::absorbance(0.5); }"),
+        ["pixel"]
+    );
+    assert_eq!(
+        violations("synth", "use crate::{numeric::rng, scene::{npz, obj}, train};"),
+        ["scene", "train"]
+    );
+    assert_eq!(
+        violations("cli", "use crate::{train, check::check};"),
+        Vec::<String>::new()
+    );
 }

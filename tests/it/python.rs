@@ -8,7 +8,10 @@ fn python() -> Option<String> {
     let found = std::env::var("NMT_PYTHON").ok();
     let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
     if found.is_none() {
-        assert!(!required.split(',').any(|t| t == "onnxruntime"), "required, but NMT_PYTHON is not set; scripts/test sets it");
+        assert!(
+            !required.split(',').any(|t| t == "onnxruntime"),
+            "required, but NMT_PYTHON is not set; scripts/test sets it"
+        );
         eprintln!("SKIPPED: NMT_PYTHON is not set; scripts/test sets it");
     }
     found
@@ -20,14 +23,44 @@ fn python() -> Option<String> {
 fn reproduces_features_and_transmittance_from_the_json_alone() {
     let Some(python) = python() else { return };
     let at = Workplace::new();
-    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--fragments", &at.path("f.npz")]).success();
-    nmt(&["train", &at.config(), "--out", &at.path("m.json"), "--dataset", &at.path("d")]).success();
+    nmt(&[
+        "generate",
+        &at.config(),
+        "--out",
+        &at.path("d"),
+        "--fragments",
+        &at.path("f.npz"),
+    ])
+    .success();
+    nmt(&[
+        "train",
+        &at.config(),
+        "--out",
+        &at.path("m.json"),
+        "--dataset",
+        &at.path("d"),
+    ])
+    .success();
     nmt(&["export", &at.path("m.json"), "--out", &at.path("e")]).success();
-    nmt(&["predict", &at.path("m.json"), "--fragments", &at.path("f.npz"), "--out", &at.path("t.npy")]).success();
+    nmt(&[
+        "predict",
+        &at.path("m.json"),
+        "--fragments",
+        &at.path("f.npz"),
+        "--out",
+        &at.path("t.npy"),
+    ])
+    .success();
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/scripts/read_export.py");
     let read = |predicted: &str| {
         let output = Command::new(&python)
-            .args([script, &at.path("e/tiny.json"), &at.path("f.npz"), "--predicted", predicted])
+            .args([
+                script,
+                &at.path("e/tiny.json"),
+                &at.path("f.npz"),
+                "--predicted",
+                predicted,
+            ])
             .args(["--onnx", &at.path("e/tiny.onnx"), "--dataset", &at.path("d")])
             .output()
             .unwrap();
@@ -36,7 +69,13 @@ fn reproduces_features_and_transmittance_from_the_json_alone() {
     };
     let (code, text) = read(&at.path("t.npy"));
     assert_eq!(code, Some(0), "{text}");
-    for part in ["ok nmt predict", "ok onnxruntime", "ok dataset features", "ok dataset targets", "ok control"] {
+    for part in [
+        "ok nmt predict",
+        "ok onnxruntime",
+        "ok dataset features",
+        "ok dataset targets",
+        "ok control",
+    ] {
         assert!(text.contains(part), "{part} is missing in\n{text}");
     }
     let mut bytes = std::fs::read(at.path("t.npy")).unwrap();
@@ -56,10 +95,25 @@ fn reproduces_the_recommended_network() {
         let model = format!("{root}/models/{name}.json");
         let fragments = format!("{root}/data/sample.npz");
         nmt(&["export", &model, "--out", &at.path(name)]).success();
-        nmt(&["predict", &model, "--fragments", &fragments, "--out", &at.path("t.npy"), "--force"]).success();
+        nmt(&[
+            "predict",
+            &model,
+            "--fragments",
+            &fragments,
+            "--out",
+            &at.path("t.npy"),
+            "--force",
+        ])
+        .success();
         let read = |predicted: &str| {
             Command::new(&python)
-                .args([&format!("{root}/scripts/read_export.py"), &model, &fragments, "--predicted", predicted])
+                .args([
+                    &format!("{root}/scripts/read_export.py"),
+                    &model,
+                    &fragments,
+                    "--predicted",
+                    predicted,
+                ])
                 .args(["--onnx", &at.path(&format!("{name}/{name}.onnx"))])
                 .output()
                 .unwrap()
@@ -67,7 +121,10 @@ fn reproduces_the_recommended_network() {
         let output = read(&at.path("t.npy"));
         let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{text}");
-        assert!(text.contains("ok nmt predict") && text.contains("ok onnxruntime") && text.contains("ok control"), "{text}");
+        assert!(
+            text.contains("ok nmt predict") && text.contains("ok onnxruntime") && text.contains("ok control"),
+            "{text}"
+        );
         // Control: the answers in another order.
         let mut bytes = std::fs::read(at.path("t.npy")).unwrap();
         bytes[128..].rotate_left(4);

@@ -69,7 +69,10 @@ const RESULTS: &str = "results.json";
 
 fn wgsl(text: &str) -> Result<Format, String> {
     let names = FORMATS.map(Format::name).join(", ");
-    FORMATS.into_iter().find(|f| f.name() == text).ok_or_else(|| format!("expected one of {names}"))
+    FORMATS
+        .into_iter()
+        .find(|f| f.name() == text)
+        .ok_or_else(|| format!("expected one of {names}"))
 }
 
 impl BenchMethods {
@@ -84,32 +87,53 @@ impl BenchMethods {
         let background = self.view.background()?;
         let (contenders, demanded) = self.contenders()?;
         let plan = self.common.prepare()?;
-        let gpu = if self.device.contains(&Device::Gpu) { self.gpu(ui)? } else { None };
+        let gpu = if self.device.contains(&Device::Gpu) {
+            self.gpu(ui)?
+        } else {
+            None
+        };
 
         let list = load(&self.fragments, &self.options)?;
         let truth = Truth::new(&list, background);
-        let setting = Setting { truth: &truth, context, plan, skip: self.skip.into() };
-        let devices: Vec<Device> =
-            [Device::Cpu, Device::Gpu].into_iter().filter(|d| self.device.contains(d) && (*d == Device::Cpu || gpu.is_some())).collect();
+        let setting = Setting {
+            truth: &truth,
+            context,
+            plan,
+            skip: self.skip.into(),
+        };
+        let devices: Vec<Device> = [Device::Cpu, Device::Gpu]
+            .into_iter()
+            .filter(|d| self.device.contains(d) && (*d == Device::Cpu || gpu.is_some()))
+            .collect();
         let mut turns = Turns::new(ui, devices.len(), plan);
         let mut tables = Vec::new();
         for &device in &devices {
             let measured = match (device, gpu) {
-                (Device::Gpu, Some(gpu)) => {
-                    turns.take(&format!("on {}", gpu.name()), |progress| setting.on_gpu(gpu, &contenders, &self.format, progress))?
-                }
+                (Device::Gpu, Some(gpu)) => turns.take(&format!("on {}", gpu.name()), |progress| {
+                    setting.on_gpu(gpu, &contenders, &self.format, progress)
+                })?,
                 _ => {
                     let name = cpu_name();
-                    turns.take(&format!("on {name}"), |progress| setting.on_cpu(&name, &contenders, progress))?
+                    turns.take(&format!("on {name}"), |progress| {
+                        setting.on_cpu(&name, &contenders, progress)
+                    })?
                 }
             };
             tables.push((device, measured));
         }
-        let figures =
-            tables.iter().flat_map(|(_, t)| t.costs.iter().map(|c| (format!("{} on {}", label(c), c.adapter), times(t, c)))).collect::<Vec<_>>();
+        let figures = tables
+            .iter()
+            .flat_map(|(_, t)| {
+                t.costs
+                    .iter()
+                    .map(|c| (format!("{} on {}", label(c), c.adapter), times(t, c)))
+            })
+            .collect::<Vec<_>>();
         turns.finish(&figures);
 
-        let scene = Path::new(&self.fragments).file_stem().map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
+        let scene = Path::new(&self.fragments)
+            .file_stem()
+            .map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
         let mut results: Vec<Value> = Vec::new();
         for (_, table) in &tables {
             results.extend(table.costs.iter().map(|c| {
@@ -119,7 +143,12 @@ impl BenchMethods {
                 }
                 row
             }));
-            results.extend(table.left_out.iter().map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })));
+            results.extend(
+                table
+                    .left_out
+                    .iter()
+                    .map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })),
+            );
         }
         let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
         let mut written = String::new();
@@ -137,11 +166,19 @@ impl BenchMethods {
         if ui.json() {
             ui.print(&json)?;
         } else {
-            let heading = format!("{scene}: {} fragments in {} pixels, at most {} in one\n", list.len(), list.pixels(), list.depth_complexity());
+            let heading = format!(
+                "{scene}: {} fragments in {} pixels, at most {} in one\n",
+                list.len(),
+                list.pixels(),
+                list.depth_complexity()
+            );
             let texts: Vec<String> = tables.iter().map(|(_, t)| table_text(t, plan.repeat)).collect();
             ui.print(&format!("{heading}\n{}{written}", texts.join("\n")))?;
         }
-        let wrong = tables.iter().flat_map(|(_, t)| &t.left_out).any(|l| !l.harmless && demanded.contains(&l.method));
+        let wrong = tables
+            .iter()
+            .flat_map(|(_, t)| &t.left_out)
+            .any(|l| !l.harmless && demanded.contains(&l.method));
         if wrong {
             bail!("a method that was asked for by name could not be applied; see above");
         }
@@ -236,7 +273,10 @@ fn row_json(scene: &str, table: &Table, c: &Cost) -> Value {
         "calls_per_repetition": c.calls, "repetitions": c.both.len(), "threads": rayon::current_num_threads(),
     });
     let Some(passes) = &c.passes else { return row };
-    let (accumulate, weights) = (Summary::of(&passes.accumulate).median, Summary::of(&passes.weights).median);
+    let (accumulate, weights) = (
+        Summary::of(&passes.accumulate).median,
+        Summary::of(&passes.weights).median,
+    );
     let apart = json!({
         "seconds_accumulate": accumulate, "seconds_weights": weights,
         "nanoseconds_per_fragment_accumulate": per_fragment(accumulate), "nanoseconds_per_fragment_weights": per_fragment(weights),
@@ -268,7 +308,8 @@ fn table_text(t: &Table, repeat: usize) -> String {
         "bits/pixel",
     ])];
     for c in &t.costs {
-        let median = |samples: Option<&Vec<f64>>| samples.map_or("-".to_owned(), |s| nanoseconds(Summary::of(s).median, c));
+        let median =
+            |samples: Option<&Vec<f64>>| samples.map_or("-".to_owned(), |s| nanoseconds(Summary::of(s).median, c));
         let s = times(t, c);
         rows.push(vec![
             if c.on_front { "*" } else { "" }.to_owned(),
@@ -282,14 +323,22 @@ fn table_text(t: &Table, repeat: usize) -> String {
             number(c.flip_mean, &|x| format!("{x:.4}")),
             number(c.transmittance_mse, &|x| format!("{x:.2e}")),
             c.nonfinite.to_string(),
-            if c.bits_per_pixel == u32::MAX { "unbounded".to_owned() } else { c.bits_per_pixel.to_string() },
+            if c.bits_per_pixel == u32::MAX {
+                "unbounded".to_owned()
+            } else {
+                c.bits_per_pixel.to_string()
+            },
         ]);
     }
     let (time, of) = match t.front_is_of {
         FrontTime::Weights => ("pass 2", "min and max are of pass 2"),
         FrontTime::Both => ("both passes", "min and max are of both passes"),
     };
-    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) { "image MSE" } else { "T-MSE" };
+    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {
+        "image MSE"
+    } else {
+        "T-MSE"
+    };
     let what = match t.front_is_of {
         FrontTime::Weights => format!(
             "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1 and has only the fragment and its pixel's total to load."
@@ -299,7 +348,11 @@ fn table_text(t: &Table, repeat: usize) -> String {
                 .to_owned()
         }
     };
-    let left: String = t.left_out.iter().map(|l| format!("left out: {}, {}\n", l.method, l.why)).collect();
+    let left: String = t
+        .left_out
+        .iter()
+        .map(|l| format!("left out: {}, {}\n", l.method, l.why))
+        .collect();
     format!(
         "{}, {}\n{}ns a fragment, medians of {repeat} repetitions by turns; {of}. *: nothing else is as fast in {time} at as small an {error}.\n{what}\n{left}",
         t.adapter,
@@ -322,11 +375,26 @@ fn chart(scene: &str, t: &Table) -> String {
             network: c.network.is_some(),
         })
         .collect();
-    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) { "image MSE" } else { "T-MSE" };
-    let undrawn: Vec<String> =
-        points.iter().filter(|p| !is_drawn(p)).map(|p| format!("{} ({})", p.label, if p.error == 0.0 { "exact" } else { "NaN" })).collect();
-    let empty = t.costs.iter().find(|c| c.method == NONE).map(|c| format!("An empty pass 2 takes {:.1} ns. ", 1e9 * t.time(c) / c.fragments as f64));
-    let missing = if undrawn.is_empty() { String::new() } else { format!("Not drawn: {}.", undrawn.join(", ")) };
+    let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {
+        "image MSE"
+    } else {
+        "T-MSE"
+    };
+    let undrawn: Vec<String> = points
+        .iter()
+        .filter(|p| !is_drawn(p))
+        .map(|p| format!("{} ({})", p.label, if p.error == 0.0 { "exact" } else { "NaN" }))
+        .collect();
+    let empty = t
+        .costs
+        .iter()
+        .find(|c| c.method == NONE)
+        .map(|c| format!("An empty pass 2 takes {:.1} ns. ", 1e9 * t.time(c) / c.fragments as f64));
+    let missing = if undrawn.is_empty() {
+        String::new()
+    } else {
+        format!("Not drawn: {}.", undrawn.join(", "))
+    };
     let clock = match t.clock {
         Clock::Device => "device timestamps",
         Clock::Wall => "wall clock",

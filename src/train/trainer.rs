@@ -123,10 +123,13 @@ fn fit(
             return Err(TrainError::NoRows(name));
         }
     }
-    let Job { config, seed, backend, .. } = *job;
+    let Job {
+        config, seed, backend, ..
+    } = *job;
     let set = dataset.training.feature_set;
     let shapes = initial::shapes(set.width(), &config.hidden);
-    let network = |parameters: &[f32], provenance| Mlp::new(job.name, set, initial::layers(&shapes, parameters)?, provenance);
+    let network =
+        |parameters: &[f32], provenance| Mlp::new(job.name, set, initial::layers(&shapes, parameters)?, provenance);
     let optimiser = |parameters: &[f32]| backend.optimiser(set, &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
@@ -146,9 +149,19 @@ fn fit(
     };
     if job.resume {
         let earlier = Checkpoint::load(job.checkpoint)?;
-        earlier.check(job.checkpoint, config, seed, &dataset.manifest.hash, backend, initial::count(&shapes))?;
+        earlier.check(
+            job.checkpoint,
+            config,
+            seed,
+            &dataset.manifest.hash,
+            backend,
+            initial::count(&shapes),
+        )?;
         fitted.restore(&earlier.parameters, &earlier.moments);
-        done = Checkpoint { config: config.clone(), ..earlier };
+        done = Checkpoint {
+            config: config.clone(),
+            ..earlier
+        };
     }
     let best_validation = |done: &Checkpoint| match done.best_epoch {
         0 => f64::INFINITY,
@@ -186,7 +199,12 @@ fn fit(
         done.moments = fitted.moments();
         let losses = Losses { training, validation };
         done.history.push(losses);
-        observe(&EpochReport { epoch, losses, best_validation: best_validation(&done), samples });
+        observe(&EpochReport {
+            epoch,
+            losses,
+            best_validation: best_validation(&done),
+            samples,
+        });
         if epoch % config.checkpoint_every == 0 && epoch < last {
             done.save(job.checkpoint)?;
         }
@@ -202,22 +220,35 @@ fn fit(
         validation_loss: Some(best.validation),
         ..job.provenance.clone()
     };
-    Ok(Outcome::Finished { mlp: Box::new(network(&done.best_parameters, provenance)?), history: done.history })
+    Ok(Outcome::Finished {
+        mlp: Box::new(network(&done.best_parameters, provenance)?),
+        history: done.history,
+    })
 }
 
 fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
     let epochs = done.history.len() as u64;
     if epochs == 0 {
-        return Ok(Outcome::Interrupted { epochs, checkpoint: None });
+        return Ok(Outcome::Interrupted {
+            epochs,
+            checkpoint: None,
+        });
     }
     done.save(path)?;
-    Ok(Outcome::Interrupted { epochs, checkpoint: Some(path.to_owned()) })
+    Ok(Outcome::Interrupted {
+        epochs,
+        checkpoint: Some(path.to_owned()),
+    })
 }
 
 /// Mean squared error of a network over rows, in f64 over its f32 answers.
 pub fn mean_squared_error(mlp: &Mlp, rows: &Rows) -> f64 {
     let out = mlp.predict(&rows.features);
-    out.iter().zip(&rows.targets).map(|(&o, &t)| (f64::from(o) - f64::from(t)).powi(2)).sum::<f64>() / rows.len() as f64
+    out.iter()
+        .zip(&rows.targets)
+        .map(|(&o, &t)| (f64::from(o) - f64::from(t)).powi(2))
+        .sum::<f64>()
+        / rows.len() as f64
 }
 
 #[cfg(test)]
@@ -227,20 +258,35 @@ mod tests {
     use crate::dataset::{DatasetConfig, build};
     use crate::features::FeatureSet;
     use crate::synth::SynthConfig;
-    use crate::train::Engine;
     use std::sync::atomic::{AtomicU32, Ordering};
 
     fn dataset() -> Dataset {
-        let config = DatasetConfig { features: FeatureSet::Paper, training_pairs: 1000, validation_pairs: 300, ..sizes() };
+        let config = DatasetConfig {
+            features: FeatureSet::Paper,
+            training_pairs: 1000,
+            validation_pairs: 300,
+            ..sizes()
+        };
         build("t", 3, &SynthConfig::paper(), &config, &|_| {}).unwrap()
     }
 
     fn config(epochs: u64) -> TrainConfig {
-        toml::from_str(&format!("hidden = [8]\nepochs = {epochs}\nbatch = 256\nlearning_rate = 1e-3\ncheckpoint_every = 2")).unwrap()
+        toml::from_str(&format!(
+            "hidden = [8]\nepochs = {epochs}\nbatch = 256\nlearning_rate = 1e-3\ncheckpoint_every = 2"
+        ))
+        .unwrap()
     }
 
     fn job<'a>(config: &'a TrainConfig, checkpoint: &'a Path, resume: bool) -> Job<'a> {
-        Job { name: "t", config, seed: 11, backend: Backend::Burn(Engine::Flex), checkpoint, resume, provenance: Provenance::default() }
+        Job {
+            name: "t",
+            config,
+            seed: 11,
+            backend: Backend::Fused,
+            checkpoint,
+            resume,
+            provenance: Provenance::default(),
+        }
     }
 
     fn finished(outcome: Outcome) -> (Mlp, Vec<Losses>) {
@@ -256,7 +302,12 @@ mod tests {
         let (dataset, config) = (dataset(), config(30));
         let path = folder.path().join("m.checkpoint.json");
         let mut reports = Vec::new();
-        let (mlp, history) = finished(train(&dataset, &job(&config, &path, false), &|| false, &mut |r| reports.push(*r)).unwrap());
+        let (mlp, history) = finished(
+            train(&dataset, &job(&config, &path, false), &|| false, &mut |r| {
+                reports.push(*r)
+            })
+            .unwrap(),
+        );
         assert_eq!((history.len(), reports.len()), (30, 30));
         assert_eq!(reports[29].samples, 30 * dataset.training.len() as u64);
         assert!(history[29].training < 0.5 * history[0].training);
@@ -274,7 +325,10 @@ mod tests {
         let straight = finished(train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}).unwrap());
         let stop = stop_after(4 * 3 + 2);
         match train(&dataset, &job(&config, &path, false), &stop, &mut |_| {}).unwrap() {
-            Outcome::Interrupted { epochs: 3, checkpoint: Some(at) } => assert_eq!(at, path),
+            Outcome::Interrupted {
+                epochs: 3,
+                checkpoint: Some(at),
+            } => assert_eq!(at, path),
             other => panic!("{other:?}"),
         }
         let resumed = finished(train(&dataset, &job(&config, &path, true), &|| false, &mut |_| {}).unwrap());
@@ -291,23 +345,40 @@ mod tests {
     #[test]
     fn an_interruption_changes_nothing_of_a_stream() {
         let folder = tempfile::tempdir().unwrap();
-        let sizes = DatasetConfig { features: FeatureSet::Recentred, training_pairs: 2000, validation_pairs: 300, refresh: 0.25, ..sizes() };
+        let sizes = DatasetConfig {
+            features: FeatureSet::Recentred,
+            training_pairs: 2000,
+            validation_pairs: 300,
+            refresh: 0.25,
+            ..sizes()
+        };
         let dataset = build("t", 3, &SynthConfig::paper(), &sizes, &|_| {}).unwrap();
-        let config: TrainConfig =
-            toml::from_str("hidden = [8]\nepochs = 7\nbatch = 512\nlearning_rate = 1e-2\nschedule = \"cosine\"\nseeds = 2").unwrap();
+        let config: TrainConfig = toml::from_str(
+            "hidden = [8]\nepochs = 7\nbatch = 512\nlearning_rate = 1e-2\nschedule = \"cosine\"\nseeds = 2",
+        )
+        .unwrap();
         let path = folder.path().join("m.checkpoint.json");
-        let of = |resume| Job { backend: Backend::Fused, ..job(&config, &path, resume) };
+        let of = |resume| Job {
+            backend: Backend::Fused,
+            ..job(&config, &path, resume)
+        };
         let straight = finished(train(&dataset, &of(false), &|| false, &mut |_| {}).unwrap());
         assert_eq!(straight.1.len(), 14);
         for steps in [4 * 6 + 1, 4 * 7, 4 * 11 + 3] {
-            assert!(matches!(train(&dataset, &of(false), &stop_after(steps), &mut |_| {}).unwrap(), Outcome::Interrupted { .. }));
+            assert!(matches!(
+                train(&dataset, &of(false), &stop_after(steps), &mut |_| {}).unwrap(),
+                Outcome::Interrupted { .. }
+            ));
             let resumed = finished(train(&dataset, &of(true), &|| false, &mut |_| {}).unwrap());
             assert_eq!(resumed, straight, "stopped before step {}", steps + 1);
         }
         // Control: without fresh pixels it is another training.
         let mut fixed = dataset;
         fixed.manifest.dataset.refresh = 0.0;
-        assert_ne!(finished(train(&fixed, &of(false), &|| false, &mut |_| {}).unwrap()).1, straight.1);
+        assert_ne!(
+            finished(train(&fixed, &of(false), &|| false, &mut |_| {}).unwrap()).1,
+            straight.1
+        );
     }
 
     #[test]
@@ -316,7 +387,15 @@ mod tests {
         let config = config(3);
         let path = folder.path().join("c.json");
         let outcome = train(&dataset(), &job(&config, &path, false), &|| true, &mut |_| {}).unwrap();
-        assert!(matches!(outcome, Outcome::Interrupted { epochs: 0, checkpoint: None }) && !path.exists());
+        assert!(
+            matches!(
+                outcome,
+                Outcome::Interrupted {
+                    epochs: 0,
+                    checkpoint: None
+                }
+            ) && !path.exists()
+        );
     }
 
     #[test]
@@ -329,14 +408,38 @@ mod tests {
         std::fs::write(&path, "{}").unwrap();
         assert!(error(&job(&config, &path, true)).contains("not a checkpoint"));
         train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}).unwrap();
-        let faster = TrainConfig { learning_rate: 1e-2, ..config.clone() };
+        let faster = TrainConfig {
+            learning_rate: 1e-2,
+            ..config.clone()
+        };
         assert!(error(&job(&faster, &path, true)).contains("another training configuration"));
-        assert!(error(&Job { seed: 12, ..job(&config, &path, true) }).contains("another seed"));
-        assert!(error(&Job { backend: Backend::Burn(Engine::Ndarray), ..job(&config, &path, true) }).contains("another backend"));
-        let shorter = TrainConfig { epochs: 1, ..config.clone() };
+        assert!(
+            error(&Job {
+                seed: 12,
+                ..job(&config, &path, true)
+            })
+            .contains("another seed")
+        );
+        #[cfg(feature = "burn")]
+        assert!(
+            error(&Job {
+                backend: Backend::Burn(crate::train::Engine::Ndarray),
+                ..job(&config, &path, true)
+            })
+            .contains("another backend")
+        );
+        let shorter = TrainConfig {
+            epochs: 1,
+            ..config.clone()
+        };
         assert!(error(&job(&shorter, &path, true)).contains("2 epochs are done already"));
         let longer = TrainConfig { epochs: 6, ..config };
-        assert_eq!(finished(train(&dataset, &job(&longer, &path, true), &|| false, &mut |_| {}).unwrap()).1.len(), 6);
+        assert_eq!(
+            finished(train(&dataset, &job(&longer, &path, true), &|| false, &mut |_| {}).unwrap())
+                .1
+                .len(),
+            6
+        );
     }
 
     #[test]
@@ -345,9 +448,17 @@ mod tests {
         let path = folder.path().join("c.json");
         let mut dataset = dataset();
         let bad = TrainConfig { batch: 0, ..config(1) };
-        assert!(train(&dataset, &job(&bad, &path, false), &|| false, &mut |_| {}).unwrap_err().to_string().contains("train.batch = 0"));
+        assert!(
+            train(&dataset, &job(&bad, &path, false), &|| false, &mut |_| {})
+                .unwrap_err()
+                .to_string()
+                .contains("train.batch = 0")
+        );
         dataset.training.features[0] = f32::INFINITY;
         let config = config(1);
-        assert!(matches!(train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}), Err(TrainError::Diverged { epoch: 1 })));
+        assert!(matches!(
+            train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}),
+            Err(TrainError::Diverged { epoch: 1 })
+        ));
     }
 }
