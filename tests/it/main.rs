@@ -5,5 +5,6 @@ mod cli;
 mod docs;
 mod fuzz;
 mod layers;
+mod over_time;
 mod python;
 mod report;
