@@ -1,5 +1,6 @@
 //! Feature sets: what the network sees of a fragment. The only place that knows an order of columns.
 
+pub mod core;
 pub mod deep_weighted_blended;
 pub mod paper;
 pub mod passes;
