@@ -38,7 +38,8 @@ pub struct Evaluate {
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
-    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass has found.
+    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass
+    /// has found.
     #[arg(long, requires = "model")]
     prepass: bool,
     /// Folder for images, contact sheets and results.json.
@@ -48,7 +49,8 @@ pub struct Evaluate {
     options: SceneOptions,
     #[command(flatten)]
     view: ViewOptions,
-    /// Turn the camera about the scene for so many frames, and compare how images change from frame to frame; for scenes that are rendered, not for lists.
+    /// Turn the camera about the scene for so many frames, and compare how images change from frame to frame; for
+    /// scenes that are rendered, not for lists.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     frames: Option<u32>,
     /// Angle of the camera between two frames [degrees].

@@ -1,7 +1,8 @@
 //! Error over time: how a method's image changes from frame to frame, beside how the truth changes.
 //!
-//! An error that stays where it is looks like another material; one that comes and goes flickers. Of frames 0, 1, … with images m and exact images t the measure
-//! is the mean, over frames from the second on, pixels and channels, of ((m_i − m_{i−1}) − (t_i − t_{i−1}))².
+//! An error that stays where it is looks like another material; one that comes and goes flickers. Of frames 0, 1, …
+//! with images m and exact images t the measure is the mean, over frames from the second on, pixels and channels, of
+//! ((m_i − m_{i−1}) − (t_i − t_{i−1}))².
 
 use super::{EvaluateError, Image, image};
 use crate::numeric::tolerance::AbsoluteError;
@@ -9,12 +10,14 @@ use crate::oit::{self, Context, Method};
 use crate::pixel::FragmentList;
 use serde::{Deserialize, Serialize};
 
-/// Change of a method from frame to frame against the change of the truth. In JSON, NaN becomes null; the count says why.
+/// Change of a method from frame to frame against the change of the truth. In JSON, NaN becomes null; the count says
+/// why.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct OverTime {
     /// Number of frames.
     pub frames: u32,
-    /// Mean square of (change of the method − change of the truth), over all frames but the first, all pixels and channels; NaN where a channel is not finite.
+    /// Mean square of (change of the method − change of the truth), over all frames but the first, all pixels and
+    /// channels; NaN where a channel is not finite.
     pub frame_change_mse: Option<f64>,
     /// Greatest |change of the method − change of the truth| of a channel; NaN as for the mean.
     pub frame_change_worst: Option<f64>,
@@ -48,10 +51,11 @@ impl Change {
     }
 }
 
-/// Runs methods on every frame and compares their changes with the truth's; none for a method that cannot be applied to a frame.
+/// Runs methods on every frame and compares their changes with the truth's; none for a method that cannot be applied to
+/// a frame.
 ///
-/// Where the context holds no range of depth, all frames share the extremes of all of them, as a renderer's planes or bounding box stay the same from frame to
-/// frame. The list of a frame is asked for once more to find them.
+/// Where the context holds no range of depth, all frames share the extremes of all of them, as a renderer's planes or
+/// bounding box stay the same from frame to frame. The list of a frame is asked for once more to find them.
 ///
 /// # Errors
 /// What `frame` returns, and [`EvaluateError`] where a list makes no image, or images of different sizes.
@@ -127,7 +131,8 @@ mod tests {
         change.error
     }
 
-    /// By hand, to 1e-15: a constant error changes nothing, one that comes and goes counts twice, a still picture has the change of the truth.
+    /// By hand, to 1e-15: a constant error changes nothing, one that comes and goes counts twice, a still picture has
+    /// the change of the truth.
     #[test]
     fn changes_by_hand() {
         let (t0, t1, t2) = ([0.1, 0.5], [0.2, 0.5], [0.4, 0.1]);
@@ -169,7 +174,8 @@ mod tests {
         }
     }
 
-    /// On a scene in motion: the exact method keeps to rounding (1e-30), the truth does change. Controls: a method that flickers, and one frame shown for all.
+    /// On a scene in motion: the exact method keeps to rounding (1e-30), the truth does change. Controls: a method that
+    /// flickers, and one frame shown for all.
     #[test]
     fn methods_on_a_moving_scene() {
         let scene = open("sphere-cluster").unwrap();

@@ -49,7 +49,8 @@ mod tests {
     use super::*;
     use crate::scene::open;
 
-    /// The camera keeps its distance to 1e-12 and its height, comes back after a full turn, and the first frame is the scene's own, bit for bit.
+    /// The camera keeps its distance to 1e-12 and its height, comes back after a full turn, and the first frame is the
+    /// scene's own, bit for bit.
     #[test]
     fn the_camera_circles_its_target() {
         let first = open("teapots").unwrap().camera().unwrap();

@@ -476,7 +476,8 @@ fn spheres(out: &mut Builder) {
     );
 }
 
-/// Forty spheres of all sizes and opacities within a ball, most of them cut by several others: as the camera moves, fragments change places everywhere.
+/// Forty spheres of all sizes and opacities within a ball, most of them cut by several others: as the camera moves,
+/// fragments change places everywhere.
 fn sphere_cluster(out: &mut Builder, seed: u64) {
     for i in 0..40 {
         let mut rng = random(seed, Purpose::Spheres, i);

@@ -13,7 +13,8 @@ fn evaluate(folder: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
         .assert()
 }
 
-/// The exact method changes as the truth does, to rounding (1e-25); moments do not, and neither is asked of a list, which has no camera.
+/// The exact method changes as the truth does, to rounding (1e-25); moments do not, and neither is asked of a list,
+/// which has no camera.
 #[test]
 fn frames_are_compared() {
     let folder = tempfile::tempdir().unwrap();
