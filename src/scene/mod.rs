@@ -10,7 +10,7 @@ mod procedural;
 mod raster;
 
 pub use camera::Camera;
-pub use file::{Look, MeshEntry, SceneFile};
+pub use file::{MaterialOverride, MeshEntry, SceneFile};
 pub use path::CameraPath;
 
 use crate::numeric::file::FileError;

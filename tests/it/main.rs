@@ -8,3 +8,4 @@ mod layers;
 mod over_time;
 mod python;
 mod report;
+mod shaders;
