@@ -37,6 +37,33 @@ pub enum FeatureSet {
     /// [`Self::Recentred`] with eight moments.
     #[serde(rename = "recentred-8")]
     Recentred8,
+    /// 2 heavy fragments besides both ends, and 4 moments; see [`core`].
+    #[serde(rename = "core-2-4")]
+    Core2x4,
+    /// 3 heavy fragments besides both ends, and 3 moments; see [`core`].
+    #[serde(rename = "core-3-3")]
+    Core3x3,
+    /// 4 heavy fragments besides both ends, and 2 moments; see [`core`].
+    #[serde(rename = "core-4-2")]
+    Core4x2,
+    /// 4 heavy fragments besides both ends, and 4 moments; see [`core`].
+    #[serde(rename = "core-4-4")]
+    Core4x4,
+    /// 5 heavy fragments besides both ends, and 3 moments; see [`core`].
+    #[serde(rename = "core-5-3")]
+    Core5x3,
+    /// 6 heavy fragments besides both ends, and 2 moments; see [`core`].
+    #[serde(rename = "core-6-2")]
+    Core6x2,
+    /// 4 heavy fragments besides both ends, and 6 moments; see [`core`].
+    #[serde(rename = "core-4-6")]
+    Core4x6,
+    /// 6 heavy fragments besides both ends, and 4 moments; see [`core`].
+    #[serde(rename = "core-6-4")]
+    Core6x4,
+    /// 8 heavy fragments besides both ends, and 2 moments; see [`core`].
+    #[serde(rename = "core-8-2")]
+    Core8x2,
 }
 
 /// What a network's output number means.
@@ -109,13 +136,39 @@ pub enum MomentDepthKind {
 
 impl FeatureSet {
     /// Every feature set.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 14] = [
         Self::Paper,
         Self::DeepWeightedBlended,
         Self::Recentred,
         Self::Recentred6,
         Self::Recentred8,
+        Self::Core2x4,
+        Self::Core3x3,
+        Self::Core4x2,
+        Self::Core4x4,
+        Self::Core5x3,
+        Self::Core6x2,
+        Self::Core4x6,
+        Self::Core6x4,
+        Self::Core8x2,
     ];
+
+    /// The core that it keeps; none of sets that keep no single fragments.
+    pub const fn core(self) -> Option<core::CoreSet> {
+        let (heavy, moments) = match self {
+            Self::Core2x4 => (2, 4),
+            Self::Core3x3 => (3, 3),
+            Self::Core4x2 => (4, 2),
+            Self::Core4x4 => (4, 4),
+            Self::Core5x3 => (5, 3),
+            Self::Core6x2 => (6, 2),
+            Self::Core4x6 => (4, 6),
+            Self::Core6x4 => (6, 4),
+            Self::Core8x2 => (8, 2),
+            _ => return None,
+        };
+        Some(core::CoreSet::new(heavy, moments))
+    }
 
     /// Its name in configs, model files and file headers.
     pub fn name(self) -> &'static str {
@@ -125,6 +178,15 @@ impl FeatureSet {
             Self::Recentred => "recentred",
             Self::Recentred6 => "recentred-6",
             Self::Recentred8 => "recentred-8",
+            Self::Core2x4 => "core-2-4",
+            Self::Core3x3 => "core-3-3",
+            Self::Core4x2 => "core-4-2",
+            Self::Core4x4 => "core-4-4",
+            Self::Core5x3 => "core-5-3",
+            Self::Core6x2 => "core-6-2",
+            Self::Core4x6 => "core-4-6",
+            Self::Core6x4 => "core-6-4",
+            Self::Core8x2 => "core-8-2",
         }
     }
 
@@ -134,6 +196,7 @@ impl FeatureSet {
             Self::Paper => &paper::COLUMNS,
             Self::DeepWeightedBlended => &deep_weighted_blended::COLUMNS,
             Self::Recentred | Self::Recentred6 | Self::Recentred8 => recentred::columns(self.moments()),
+            _ => core::columns(self.moments()),
         }
     }
 
@@ -143,6 +206,7 @@ impl FeatureSet {
             Self::Paper => &paper::DESCRIPTION,
             Self::DeepWeightedBlended => &deep_weighted_blended::DESCRIPTION,
             Self::Recentred | Self::Recentred6 | Self::Recentred8 => &recentred::DESCRIPTION,
+            _ => &core::DESCRIPTION,
         }
     }
 
@@ -156,7 +220,7 @@ impl FeatureSet {
         match self {
             Self::Paper => OutputMeaning::Transmittance,
             Self::DeepWeightedBlended => OutputMeaning::FrontToBackFactor,
-            Self::Recentred | Self::Recentred6 | Self::Recentred8 => OutputMeaning::AbsorbanceShare,
+            _ => OutputMeaning::AbsorbanceShare,
         }
     }
 
@@ -178,14 +242,15 @@ impl FeatureSet {
             Self::Paper | Self::Recentred => 4,
             Self::Recentred6 => 6,
             Self::Recentred8 => 8,
+            _ => self.core().map_or(0, |core| core.moments),
         }
     }
 
     /// What its rows of a dataset are answered with.
     pub fn target(self) -> Target {
         match self {
-            Self::Paper | Self::Recentred | Self::Recentred6 | Self::Recentred8 => Target::Transmittance,
             Self::DeepWeightedBlended => Target::FrontToBackFactor,
+            _ => Target::Transmittance,
         }
     }
 
@@ -194,7 +259,7 @@ impl FeatureSet {
         match self {
             Self::Paper => MomentDepthKind::Window,
             Self::DeepWeightedBlended => MomentDepthKind::None,
-            Self::Recentred | Self::Recentred6 | Self::Recentred8 => MomentDepthKind::Log,
+            _ => MomentDepthKind::Log,
         }
     }
 }
@@ -213,6 +278,7 @@ enum Kind {
     Paper(CameraPlanes),
     DeepWeightedBlended(LinearRange),
     Recentred(LogWarp),
+    Core(core::CoreSet, core::code::Codes),
 }
 
 /// What moment depth −1 and 1 stand for while pass 1 adds moments up.
@@ -319,6 +385,27 @@ impl Sampled {
 }
 
 impl Sampled {
+    /// Rows of a set with a core.
+    fn core(
+        &mut self,
+        set: &core::CoreSet,
+        codes: &core::code::Codes,
+        pixel: Pixel<'_>,
+        most: usize,
+        rng: &mut Stream,
+    ) {
+        let mut rows = core::extract::TrainingRows {
+            features: std::mem::take(&mut self.features),
+            targets: std::mem::take(&mut self.targets),
+            fragments: Vec::new(),
+        };
+        core::extract::sampled_rows(set, codes, pixel, most, rng, &mut rows);
+        (self.features, self.targets) = (rows.features, rows.targets);
+        self.of_pixel = rows.fragments.len();
+        self.alpha
+            .extend(rows.fragments.iter().map(|&i| pixel.alpha[i as usize]));
+    }
+
     /// A fragment as both passes see it.
     fn terms(&self, i: usize) -> FragmentTerms<f32> {
         FragmentTerms {
@@ -506,6 +593,11 @@ impl Extractor {
             FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => {
                 range().and_then(|(v0, v1)| LogWarp::new(v0, v1)).map(Kind::Recentred)?
             }
+            _ => {
+                range().and_then(|(v0, v1)| LogWarp::new(v0, v1))?;
+                let core = set.core().expect("all other sets keep one");
+                Kind::Core(core, core::pixel::codes_for(&core.layout, depth_range))
+            }
         };
         Ok(Self {
             set,
@@ -563,6 +655,10 @@ impl Extractor {
                     6 => self.recentred::<6>(pixel, warp, out),
                     _ => self.recentred::<8>(pixel, warp, out),
                 }
+                Ok(())
+            }
+            Kind::Core(set, codes) => {
+                core::extract::all_rows(&set, &codes, pixel, out);
                 Ok(())
             }
             Kind::Paper(planes) => unknown(self.set.width(), out, |rows| paper::extract(pixel, planes, rows)),
@@ -642,6 +738,7 @@ impl Extractor {
             (Kind::Recentred(warp), 4) => self.sample_of::<4>(pixel, warp, most, rng, rows),
             (Kind::Recentred(warp), 6) => self.sample_of::<6>(pixel, warp, most, rng, rows),
             (Kind::Recentred(warp), _) => self.sample_of::<8>(pixel, warp, most, rng, rows),
+            (Kind::Core(set, codes), _) => rows.core(&set, &codes, pixel, most, rng),
             (Kind::Paper(planes), _) => self.sample_paper(pixel, planes, most, rng, rows),
             (Kind::DeepWeightedBlended(_), _) => unreachable!("it is not trained on transmittances"),
         }
