@@ -4,11 +4,14 @@
 //! a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not
 //! on its company, and to leave out the network where its answer is not used changes no bit of the rest.
 
-use super::recentred::{FragmentTerms, MIN_HALF_RANGE, PixelSums, is_thin, place_in_thin};
-use super::visible::{FAINT, MIN_WEIGHT, first_hidden_depth};
-use super::wide::{Fragments, moment_depth};
-use super::{Extractor, Kind, MomentFrame, SumPrecision};
+use super::recentred::formulas::{
+    ALONE, Others, Pass2, half_range, is_thin, moment_depth, others, place_in_thin, share_of_three,
+};
+use super::recentred::{FragmentTerms, PixelSums, Rounding};
+use super::visible::{FAINT, MIN_WEIGHT, Noise, first_hidden_depth, is_hidden, most_behind};
+use super::{Extractor, MomentFrame, SumPrecision};
 use crate::numeric::lanes::{LANES, Lanes, exp};
+use crate::numeric::real::{Real, c};
 use crate::pixel::{FragmentList, LogWarp, absorbance_lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16, mask32x16};
@@ -108,8 +111,8 @@ impl Network for Silent {
 #[derive(Debug, Clone, Copy)]
 struct Summed<const K: usize> {
     sums: PixelSums<f32, K>,
-    c: f32,
-    h: f32,
+    centre: f32,
+    half_range: f32,
     /// Whether places in its range are those of view depth.
     thin: bool,
     /// Its first fragment, counted within the task.
@@ -150,11 +153,15 @@ impl<const K: usize> Queue<K> {
         } else {
             2.0
         };
-        for (lanes, value) in
-            self.fixed
-                .iter_mut()
-                .zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h, place])
-        {
+        for (lanes, value) in self.fixed.iter_mut().zip([
+            z,
+            absorbance,
+            of.sums.b0,
+            of.sums.count as f32,
+            of.centre,
+            of.half_range,
+            place,
+        ]) {
             lanes[vector].0[lane] = value;
         }
         for (lanes, value) in self.b.iter_mut().zip(of.sums.b) {
@@ -170,16 +177,18 @@ impl<const K: usize> Queue<K> {
     }
 
     #[inline(always)]
-    fn load<S: Simd>(&self, simd: S, v: usize) -> Fragments<S, K> {
-        let [z, absorbance, b0, count, c, h, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
-        Fragments {
-            z,
-            absorbance,
-            b0,
-            b: std::array::from_fn(|k| self.b[k][v].load(simd)),
-            count,
-            c,
-            h,
+    fn load<S: Simd>(&self, simd: S, v: usize) -> Sixteen<S, K> {
+        let [z, absorbance, b0, n, centre, half_range, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
+        Sixteen {
+            pass2: Pass2 {
+                z,
+                absorbance,
+                b0,
+                b: std::array::from_fn(|k| self.b[k][v].load(simd)),
+                n,
+                centre,
+                half_range,
+            },
             place,
         }
     }
@@ -278,7 +287,7 @@ impl<const K: usize> Workspace<K> {
             let short = &self.short;
             dispatch!(self.level, simd => {
                 let fragments = short.load(simd, at / LANES);
-                depth.store(fragments.closed_form(simd, &fragments.describe(simd)));
+                depth.store(fragments.closed_form());
             });
             for (lane, &depth) in depth.0[..len].iter().enumerate() {
                 let (fragment, pixel) = (
@@ -349,7 +358,7 @@ impl<const K: usize> Workspace<K> {
             let queue = &self.evaluated[usize::from(deep)];
             let (columns, row) = (&mut self.columns, self.who.len());
             let mut hidden = 0;
-            dispatch!(self.level, simd => hidden = describe(simd, &queue.load(simd, at / LANES), deep, columns, row));
+            dispatch!(self.level, simd => hidden = queue.load(simd, at / LANES).fill(deep, columns, row));
             hidden &= (1 << len) - 1;
             let fragments = &queue.fragment[at..at + len];
             if hidden == 0 {
@@ -423,7 +432,7 @@ impl<const K: usize> Workspace<K> {
             for fragment in of.first as usize..(of.first + count) as usize {
                 let (view_z, absorbance) = (task.view_z[fragment], task.absorbance[fragment]);
                 let others = (b0 - absorbance).max(0.0);
-                let (near, alone) = (view_z == nearest, others <= 1e-6 * b0);
+                let (near, alone) = (view_z == nearest, others <= ALONE as f32 * b0);
                 if near | alone | (view_z == farthest) {
                     task.out[fragment] = if near | alone { 0.0 } else { others };
                     let behind = if alone { Class::Alone } else { Class::Farthest };
@@ -538,12 +547,12 @@ impl<const K: usize> Task<'_, K> {
                     ends[1] = z;
                 }
             }
-            let h = (0.5 * (ends[1] - ends[0])).max(MIN_HALF_RANGE as f32);
+            let [centre, half_range] = half_range(ends);
             let thin = is_thin(sums.nearest, sums.farthest);
             self.summed.push(Summed {
                 sums,
-                c: 0.5 * (ends[0] + ends[1]),
-                h,
+                centre,
+                half_range,
                 thin,
                 first,
             });
@@ -590,38 +599,74 @@ fn transform_depths_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], 
             let n = z.len();
             let mut lanes = Lanes([nearest; LANES]);
             lanes.0[..n].copy_from_slice(view_z);
-            lanes.store(moment_depth(simd, lanes.load(simd), range));
+            lanes.store(moment_depth(lanes.load(simd), range));
             z.copy_from_slice(&lanes.0[..n]);
         }
     }
 }
 
-/// Puts the features of those of sixteen fragments that are not hidden into the columns, and says which are; none is where one does not look.
-#[inline(always)]
-fn describe<S: Simd, const K: usize>(
-    simd: S,
-    fragments: &Fragments<S, K>,
-    look: bool,
-    columns: &mut [Column],
-    row: usize,
-) -> u64 {
-    let described = fragments.describe(simd);
-    let (first, measure) = fragments.features(simd, &described);
-    let values = first.into_iter().chain(measure);
-    if look {
-        let hidden = fragments.hidden(simd, &described);
-        if hidden.any_true() {
-            let shown = !hidden;
-            for (column, value) in columns.iter_mut().zip(values) {
-                value.compress(shown).store_slice(&mut column[row..row + LANES]);
+/// Sixteen fragments, of any pixels.
+#[derive(Clone, Copy)]
+struct Sixteen<S: Simd, const K: usize> {
+    pass2: Pass2<f32x16<S>, K>,
+    /// Place in a thin pixel's range by view depth; more than 1 where the pixel is not thin.
+    place: f32x16<S>,
+}
+
+impl<S: Simd, const K: usize> Sixteen<S, K> {
+    #[inline(always)]
+    fn others(&self) -> Others<f32x16<S>, K> {
+        Others::new(&self.pass2, others(self.pass2.b0, self.pass2.absorbance))
+    }
+
+    /// Position in the pixel's range; in a thin pixel that of its view depth.
+    #[inline(always)]
+    fn position(&self, others: &Others<f32x16<S>, K>) -> f32x16<S> {
+        Real::select(self.place.le(c(1.0)), self.place, others.along)
+    }
+
+    /// Optical depth in front of a fragment that is one of three or four.
+    #[inline(always)]
+    fn closed_form(&self) -> f32x16<S> {
+        let others = self.others();
+        let rounded = others.rounded(&self.pass2, Rounding::of_arithmetic(others.absorbance));
+        let mean = rounded.mean();
+        let of_four = rounded.describe(mean).share_of_four(self.position(&others));
+        others.absorbance * Real::select(self.pass2.n.eq(c(3.0)), share_of_three(mean), of_four)
+    }
+
+    /// Puts the features of those that are not hidden into the columns, and says which are; with `deep` unset none is.
+    #[inline(always)]
+    fn fill(&self, deep: bool, columns: &mut [Column], row: usize) -> u64 {
+        let others = self.others();
+        let rounded = others.rounded(&self.pass2, Rounding::of_arithmetic(others.absorbance));
+        let description = rounded.describe(rounded.mean());
+        let first = rounded.first_columns(self.position(&others));
+        let values = first.into_iter().chain(rounded.columns(&description));
+        if deep {
+            let hidden = self.hidden(&others);
+            if hidden.any_true() {
+                for (column, value) in columns.iter_mut().zip(values) {
+                    value.compress(!hidden).store_slice(&mut column[row..row + LANES]);
+                }
+                return hidden.to_bitmask();
             }
-            return hidden.to_bitmask();
         }
+        for (column, value) in columns.iter_mut().zip(values) {
+            value.store_slice(&mut column[row..row + LANES]);
+        }
+        0
     }
-    for (column, value) in columns.iter_mut().zip(values) {
-        value.store_slice(&mut column[row..row + LANES]);
+
+    /// Which of these fragments, if they lie deep enough to be looked at, are hidden.
+    #[inline(always)]
+    fn hidden(&self, others: &Others<f32x16<S>, K>) -> mask32x16<S> {
+        let Pass2 { n, b0, absorbance, .. } = self.pass2;
+        let unit = b0.like(f64::from(f32::EPSILON));
+        let noise = Noise::of(n, b0, others.absorbance, others.half_range, others.noise_growth, unit);
+        let behind = most_behind(others.along, std::array::from_fn(|k| others.m[k]), &noise);
+        is_hidden(others.absorbance, absorbance, n, behind, &noise)
     }
-    0
 }
 
 /// Both passes over the pixels of a list.
@@ -636,15 +681,14 @@ pub struct Passes {
 impl Extractor {
     /// Both passes of this feature set, where they are made for many pixels: recentred ones with moments summed in f32.
     pub fn passes(&self) -> Option<Passes> {
-        match (self.kind, self.storage) {
-            (Kind::Recentred(warp), SumPrecision::F32) => Some(Passes {
-                moments: self.set.moments(),
-                width: self.set.width(),
-                warp,
-                frame: self.frame,
-            }),
-            _ => None,
-        }
+        let set = self.set();
+        let has_lanes = set.spec().sums.has_precisions && self.precision == SumPrecision::F32;
+        has_lanes.then(|| Passes {
+            moments: set.moments(),
+            width: set.width(),
+            warp: self.scale.log_warp(),
+            frame: self.frame,
+        })
     }
 }
 

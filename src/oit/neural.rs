@@ -1,9 +1,9 @@
 //! Neural moment transparency: a network answers from moments.
 
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
+use super::{Accumulated, Context, Method, MethodError};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
-use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, MomentFrame, SumPrecision};
+use crate::features::{Extracted, Extractor, MomentFrame, SumPrecision};
 use crate::model::kernel::Row;
 use crate::model::{Mlp, Tiled, file};
 use crate::numeric::lanes::LANES;
@@ -49,7 +49,7 @@ impl Skip {
 pub struct Neural {
     mlp: Mlp,
     switches: Switches,
-    storage: SumPrecision,
+    precision: SumPrecision,
     frame: MomentFrame,
 }
 
@@ -90,7 +90,7 @@ impl Neural {
         Self {
             mlp,
             switches: Skip::default().switches(),
-            storage: SumPrecision::default(),
+            precision: SumPrecision::default(),
             frame: MomentFrame::default(),
         }
     }
@@ -106,14 +106,14 @@ impl Neural {
     }
 
     /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
-    pub fn with_storage(self, storage: SumPrecision) -> Self {
-        Self { storage, ..self }
+    pub fn with_precision(self, precision: SumPrecision) -> Self {
+        Self { precision, ..self }
     }
 
     /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
     /// and farthest fragment.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
-        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log {
+        let frame = if self.mlp.feature_set().spec().sums.has_precisions {
             frame
         } else {
             MomentFrame::Scene
@@ -170,7 +170,7 @@ impl Neural {
         const RUN: u64 = 1 << 18;
         let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range)
             .map_err(|e| self.error(e))?;
-        let extractor = extractor.with_storage(self.storage).with_frame(self.frame);
+        let extractor = extractor.with_precision(self.precision).with_frame(self.frame);
         let passes = extractor.passes();
         let tiled = Tiled::new(&self.mlp);
         let offsets = list.offsets();
@@ -306,14 +306,8 @@ impl Method for Neural {
         )
     }
 
-    /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
     fn bits_per_pixel(&self) -> u32 {
-        match self.mlp.feature_set() {
-            FeatureSet::Paper => 352,
-            FeatureSet::DeepWeightedBlended => deep_weighted_blended::BITS_PER_PIXEL,
-            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are moments.
-            set => 128 + 32 + 16 + 64 + 32 * set.moments() as u32,
-        }
+        self.mlp.feature_set().spec().sums.bits_per_pixel
     }
 
     fn accumulate<'a>(
@@ -345,6 +339,7 @@ impl Accumulated for Answers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::features::FeatureSet;
     use crate::features::passes;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
