@@ -701,12 +701,12 @@ mod tests {
     #[test]
     fn shaders_hide_what_their_twin_hides() {
         use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH};
+        use crate::features::recentred;
         use crate::features::visible::{FAINT, HIDDEN, Noise, first_hidden_depth, hidden_weight, most_behind};
-        use crate::features::{passes, recentred};
         use crate::numeric::real::Divisor;
         fn compare<const K: usize>(set: FeatureSet, pixels: usize) {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
-            let list = passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
+            let list = crate::infer::passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
             let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
             for format in [Format::Wgsl, Format::Glsl] {
                 let text = source(&mlp, format);

@@ -334,6 +334,24 @@ impl Extractor {
         Self { frame, ..self }
     }
 
+    /// Precision of the moments.
+    pub fn precision(&self) -> SumPrecision {
+        self.precision
+    }
+
+    /// Frame of the moments.
+    pub fn frame(&self) -> MomentFrame {
+        self.frame
+    }
+
+    /// What logarithmic depth is measured by.
+    ///
+    /// # Panics
+    /// If the set measures depth otherwise.
+    pub fn log_warp(&self) -> LogWarp {
+        self.scale.log_warp()
+    }
+
     /// The feature set.
     pub fn set(&self) -> FeatureSet {
         self.set

@@ -4,7 +4,6 @@ pub mod core;
 pub mod deep_weighted_blended;
 mod extract;
 pub mod paper;
-pub mod passes;
 pub mod recentred;
 pub mod spec;
 pub mod visible;
