@@ -6,7 +6,7 @@ use crate::evaluate::{EvaluateError, Image, flip};
 use crate::gpu::pipeline::{Drawing, Pipeline, TargetPrecision};
 use crate::gpu::tiles::{PixelCounts, TilePasses};
 use crate::gpu::{Gpu, MethodShader};
-use crate::infer::Skip;
+use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
 
 /// How a frame is made.

@@ -4,8 +4,8 @@ use super::{EvaluateError, FlipMap, Image, Truth, flip};
 use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, TargetPrecision};
 use crate::gpu::tiles::TilePasses;
 use crate::gpu::{Gpu, GpuError, MethodShader};
-use crate::infer::Skip;
 use crate::oit::Context;
+use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
 use serde::{Deserialize, Serialize};
 

@@ -4,8 +4,8 @@ use super::device::GpuError;
 use crate::export::Format;
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
-use crate::infer::Skip;
 use crate::model::Mlp;
+use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
 
 /// How a pixel's colour is made of Σ a w C and Σ a w.

@@ -1001,8 +1001,8 @@ pub(crate) mod tests {
     use crate::evaluate::{Image, flip, image};
     use crate::export::Format;
     use crate::gpu::tests::gpu;
-    use crate::infer::Skip;
     use crate::model::{Mlp, file};
+    use crate::oit::neural::Skip;
     use crate::oit::{Context, Method, neural::Neural, weights};
     use crate::scene;
     use std::path::Path;

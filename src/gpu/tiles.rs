@@ -9,7 +9,7 @@ use super::device::{Gpu, GpuError};
 use super::method::{Composite, MethodShader};
 use super::pipeline::{FRAME, FrameSeconds, Rendered, composite, size_of};
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
-use crate::infer::Skip;
+use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
 
 /// Pixels of a workgroup in each direction.

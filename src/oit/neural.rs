@@ -3,7 +3,8 @@
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
 use crate::features::{Extractor, MomentFrame, SumPrecision};
-use crate::infer::{self, Answered, Skip, Switches};
+use crate::infer::{self, Switches};
+pub use crate::infer::{Answered, Skip};
 use crate::model::{Mlp, file};
 use crate::pixel::FragmentList;
 use std::path::Path;

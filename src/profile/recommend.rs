@@ -151,7 +151,7 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
     if let Some(tiles) = &facts.tiles {
         words.push(format!(
             "{} of the {} tiles of 8 x 8 pixels need no network ({} are empty, {} hold only what is known): an indirect dispatch would leave them out.",
-            percent(tiles.saved(crate::infer::Skip::Exact)),
+            percent(tiles.saved(crate::oit::neural::Skip::Exact)),
             tiles.tiles,
             percent(tiles.empty as f64 / tiles.tiles.max(1) as f64),
             percent(tiles.known as f64 / tiles.tiles.max(1) as f64)
