@@ -2,7 +2,7 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, RowStream, Rows};
-use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, SumPrecision};
+use crate::features::{Extracted, Extractor, FeatureSet, SumPrecision};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
@@ -204,7 +204,7 @@ pub fn build(
     progress: &dyn Fn(u64),
 ) -> Result<Dataset, DatasetError> {
     config.validate()?;
-    if config.features.moment_depth() == MomentDepthKind::Log {
+    if config.features.spec().is_sampled {
         let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, usize), DatasetError> {
             let mut stream = RowStream::new(seed, synth, config, purpose)?;
             let rows = stream.take(pairs as usize, &|n| progress(before + n))?;
@@ -334,7 +334,7 @@ pub fn build_from_lists(
         extractors.push(
             Extractor::for_list(config.features, list, None, None)
                 .map_err(in_list)?
-                .with_storage(config.storage),
+                .with_precision(config.storage),
         );
     }
     let rows_of = |chosen: &[(u32, u32)]| {

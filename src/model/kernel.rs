@@ -20,6 +20,15 @@ pub const ZEROS: Row = [Lanes::ZERO; TILE];
 /// Units that are computed together; hidden layers are padded to a multiple.
 pub const UNITS: usize = 8;
 
+/// Hands a macro the sizes of the shipped networks, inputs and hidden layers, for kernels that know them at compile time:
+/// `shipped_sizes!(callback, arguments)` is `callback!(@ [[7, 32, 16] ...] arguments)`. This is their one place.
+macro_rules! shipped_sizes {
+    ($callback:ident, $($arguments:tt)*) => {
+        $callback!(@ [[7, 32, 16] [9, 32, 16] [7, 16, 8]] $($arguments)*)
+    };
+}
+pub(crate) use shipped_sizes;
+
 /// Layers as the kernels read them: hidden ones padded to whole registers with units that are always 0, the parameters of all in one array.
 #[derive(Debug, Clone)]
 pub struct Padded {

@@ -6,7 +6,7 @@ pub mod mlp;
 pub mod simplify;
 
 pub use file::ModelError;
-pub use mlp::{Dense, Mlp, ShapeError, Tiled};
+pub use mlp::{Dense, Mlp, ShapeError};
 
 use serde::{Deserialize, Serialize};
 

@@ -3,9 +3,32 @@
 use super::code::{Codes, CoreFragment};
 use super::pixel::{Answer, Between, Passes, Query, with_sums};
 use super::{CoreSet, FIXED};
+use crate::features::{Extractor, Sampled};
 use crate::numeric::rng::Stream;
-use crate::pixel::{Pixel, absorbance};
+use crate::pixel::{DepthError, Pixel, absorbance};
 use rand::RngExt;
+
+/// [`FeatureSpec::pixel`](crate::features::FeatureSpec::pixel) of sets with a core.
+pub(super) fn pixel(e: &Extractor, pixel: Pixel<'_>, out: &mut [f32]) -> Result<(), DepthError> {
+    let (set, codes) = e.codes();
+    all_rows(&set, &codes, pixel, out);
+    Ok(())
+}
+
+/// [`FeatureSpec::sample`](crate::features::FeatureSpec::sample) of sets with a core.
+pub(super) fn sample(e: &Extractor, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) {
+    let (set, codes) = e.codes();
+    let mut made = TrainingRows {
+        features: std::mem::take(&mut rows.features),
+        targets: std::mem::take(&mut rows.targets),
+        fragments: Vec::new(),
+    };
+    sampled_rows(&set, &codes, pixel, most, rng, &mut made);
+    (rows.features, rows.targets) = (made.features, made.targets);
+    rows.of_pixel = made.fragments.len();
+    rows.alpha
+        .extend(made.fragments.iter().map(|&i| pixel.alpha[i as usize]));
+}
 
 /// Rows of a pixel that a network is trained on.
 #[derive(Debug, Clone, Default)]
@@ -56,7 +79,8 @@ fn write<const N: usize>(query: &Query<N>, row: &mut [f32]) {
 
 /// Appends rows of at most `most` fragments of a pixel that need a network, chosen at random.
 ///
-/// An error of the tail's transmittance is an error of T times e^−(core in front). So that squared errors count as those of
+/// An error of the tail's transmittance is an error of T times e^−(core in front). So that squared errors count as
+/// those of
 /// T do, a fragment is chosen with probability e^−2(core in front).
 pub fn sampled_rows(
     set: &CoreSet,
