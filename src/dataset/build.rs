@@ -143,22 +143,13 @@ impl DatasetConfig {
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
     let Extracted { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
-    let asked = |values: &mut dyn Iterator<Item = f32>| {
-        known
-            .iter()
-            .zip(values)
-            .filter(|(k, _)| k.is_nan())
-            .map(|(_, v)| v)
-            .collect()
-    };
-    let targets = asked(&mut targets.into_iter().map(|t| t as f32));
-    let all_pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
-    let pixels = known
+    let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
+    let unknown = known
         .iter()
-        .zip(all_pixels)
-        .filter(|(k, _)| k.is_nan())
-        .map(|(_, p)| p)
-        .collect();
+        .zip(targets)
+        .zip(pixels)
+        .filter(|((known, _), _)| known.is_none());
+    let (targets, pixels) = unknown.map(|((_, target), pixel)| (target as f32, pixel)).unzip();
     Ok(Rows {
         feature_set: extractor.set(),
         features,

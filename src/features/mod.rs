@@ -239,8 +239,8 @@ mod tests {
         assert_eq!(depths(Some((1.0, 9.0))), [0.125, 0.25, 0.625]);
     }
 
-    /// Sampled rows against those of [`Extractor::pixel`]: the same fragments, features to f32 rounding (for thin pixels what rounding of the moments makes of
-    /// them), targets to 2e-6. Control: the row of the fragment before.
+    /// Sampled rows against those of [`Extractor::pixel`]: the same fragments, features to f32 rounding (for thin
+    /// pixels what rounding of the moments makes of them), targets to 2e-6. Control: the row of the fragment before.
     #[test]
     fn sampled_rows_are_those_of_whole_pixels() {
         let planes = CameraPlanes::new(0.5, 20.0).unwrap();
