@@ -1,12 +1,13 @@
 //! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light passes in front of it.
 //!
 //! Data flows down this list of modules, and a module imports only from those above it:
-//! [`numeric`], [`pixel`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`export`],
+//! [`numeric`], [`pixel`] and [`chart`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`export`],
 //! [`gpu`], [`check`], [`evaluate`], [`mod@bench`], [`stress`], [`profile`] and [`report`].
 
 #![warn(missing_docs)]
 
 pub mod bench;
+pub mod chart;
 pub mod check;
 pub mod cli;
 pub mod dataset;

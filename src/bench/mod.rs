@@ -7,7 +7,6 @@ pub mod infer;
 pub mod methods;
 pub mod network;
 pub mod peak;
-pub mod scatter;
 pub mod summary;
 pub mod tiles;
 pub mod train;

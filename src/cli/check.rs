@@ -6,13 +6,11 @@ use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
 use crate::export::Format;
 use crate::model::{Mlp, file};
+use crate::numeric::require;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-
-/// Environment variable that makes tools a condition, as `--require` does.
-const REQUIRE_VARIABLE: &str = "NMT_REQUIRE";
 
 #[derive(Args)]
 pub struct Check {
@@ -38,21 +36,23 @@ pub struct CheckArguments {
 impl CheckArguments {
     /// Tools that are required here or by the environment.
     fn required(&self) -> anyhow::Result<Vec<String>> {
-        let variable = std::env::var(REQUIRE_VARIABLE).unwrap_or_default();
-        let tools: Vec<String> = self
-            .require
+        let known = |tools: &[&str], source: &str, names: &[String]| match names
             .iter()
-            .map(String::as_str)
-            .chain(variable.split(','))
-            .map(|t| t.trim().to_owned())
-            .filter(|t| !t.is_empty())
-            .collect();
-        if let Some(unknown) = tools.iter().find(|t| !OPTIONAL_TOOLS.contains(&t.as_str())) {
-            bail!(
-                "--require or {REQUIRE_VARIABLE} names '{unknown}'; known are {}",
-                OPTIONAL_TOOLS.join(", ")
-            );
-        }
+            .find(|name| !tools.contains(&name.as_str()))
+        {
+            Some(unknown) => bail!("{source} names '{unknown}'; known are {}", tools.join(", ")),
+            None => Ok(()),
+        };
+        let mut tools: Vec<String> = self.require.iter().flat_map(|list| require::names(list)).collect();
+        known(&OPTIONAL_TOOLS, "--require", &tools)?;
+        let variable = require::required();
+        known(&require::TOOLS, require::VARIABLE, &variable)?;
+        // The others are tools of the tests.
+        tools.extend(
+            variable
+                .into_iter()
+                .filter(|name| OPTIONAL_TOOLS.contains(&name.as_str())),
+        );
         Ok(tools)
     }
 }

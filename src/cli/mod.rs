@@ -1,7 +1,6 @@
 //! The command line: the only place that parses arguments, shows progress and prints.
 
 mod bench;
-mod bench_tiles;
 mod check;
 mod config;
 mod evaluate;

@@ -10,9 +10,7 @@ use crate::oit::neural::Skip;
 use crate::profile::facts::Histogram;
 use crate::profile::simplify::{Report, Simplified, simplify};
 use crate::profile::specialise::{Plan, Specialised, specialise};
-use crate::profile::{
-    Facts, Networked, Recommendation, Scene, facts, look_into, network, plot, recommend, shipped, skip,
-};
+use crate::profile::{Facts, Networked, Recommendation, Scene, facts, look_into, network, recommend, shipped, skip};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
@@ -125,7 +123,7 @@ impl Profile {
         if let Some(folder) = &self.out {
             create_folder(folder)?;
             let json = serde_json::to_string_pretty(&super::ui::report("profile", vec![result.clone()]))? + "\n";
-            let drawing = plot::svg(&format!("{name}: {} fragments", facts.fragments), &facts)?;
+            let drawing = facts.drawing(&format!("{name}: {} fragments", facts.fragments));
             for (file, text) in FILES.iter().zip([&json, &drawing, &recommendation.config]) {
                 write_atomically(&folder.join(file), replace, |w| w.write_all(text.as_bytes()))?;
             }

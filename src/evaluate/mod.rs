@@ -6,7 +6,6 @@ pub mod gpu;
 pub mod image;
 pub mod judge;
 pub mod picture;
-mod text;
 
 pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};

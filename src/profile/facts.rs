@@ -1,6 +1,7 @@
 //! What a fragment list holds: histograms, and how many fragments each rule answers.
 
 use super::{ProfileError, Scene};
+use crate::chart::histogram::{self, Panel};
 use crate::features::passes::{Class, Silent};
 use crate::features::{Extractor, FeatureSet};
 use crate::oit::neural::Skip;
@@ -140,6 +141,24 @@ pub struct Facts {
     pub unseen: f64,
     /// Where the list is an image.
     pub tiles: Option<Tiles>,
+}
+
+impl Facts {
+    /// The histograms of the scene and, below them, how every fragment is answered, as an SVG file.
+    pub fn drawing(&self, title: &str) -> String {
+        let panel = |h: &Histogram| Panel {
+            title: format!("{}, % of {}", h.quantity, h.of),
+            edges: h.edges.clone(),
+            counts: h.counts.clone(),
+        };
+        let share = |class: &Share| histogram::Share {
+            label: format!("{}: {:.1} % ({})", class.class, 100.0 * class.share, class.answer),
+            share: class.share,
+        };
+        let panels: Vec<Panel> = self.histograms.iter().map(panel).collect();
+        let shares: Vec<histogram::Share> = self.classes.iter().map(share).collect();
+        histogram::svg(title, &panels, "How every fragment is answered", &shares)
+    }
 }
 
 /// Looks a list over.

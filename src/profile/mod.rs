@@ -2,7 +2,6 @@
 
 pub mod facts;
 pub mod network;
-pub mod plot;
 pub mod recommend;
 pub mod simplify;
 pub mod skip;

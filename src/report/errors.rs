@@ -1,8 +1,8 @@
 //! The sections of `nmt evaluate`'s numbers: tables of errors, and errors against depth complexity and alpha.
 
-use super::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use super::html::{Cell, Table, details, escape, number, thousands};
 use super::scenes::{Bin, Method, Scene, chosen};
+use crate::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 
 /// Tables of all methods, a scene each.
 pub fn tables(scenes: &[Scene]) -> String {

@@ -4,7 +4,6 @@
 //! of strangers: all are escaped, any may be broken or of other types than expected, and the page says which were. A content security policy lets the
 //! page's own script run and no other. The same files make the same bytes.
 
-mod chart;
 mod checks;
 mod errors;
 mod find;
@@ -21,6 +20,7 @@ mod value;
 
 pub use find::Problem;
 
+use crate::chart::palette;
 use crate::numeric::digest::sha256_hex;
 use crate::numeric::file::FileError;
 use find::Found;
@@ -100,6 +100,13 @@ struct Section {
 
 const SCRIPT: &str = include_str!("page.js");
 const STYLE: &str = include_str!("page.css");
+
+/// The style of the page, with the colours of series in their light and dark form.
+fn style() -> String {
+    STYLE
+        .replace("SERIES_LIGHT", &palette::variables(&palette::LIGHT))
+        .replace("SERIES_DARK", &palette::variables(&palette::DARK))
+}
 
 /// A page of everything in a folder and those below it.
 ///
@@ -235,8 +242,9 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{}'\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name}: nmt report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n",
-        script_hash(SCRIPT)
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name}: nmt report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+        script_hash(SCRIPT),
+        style()
     );
     out += &format!(
         "<header><h1>{name}</h1>\n<p class=\"note\">Made by nmt {} of {}.</p></header>\n",

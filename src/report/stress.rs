@@ -1,9 +1,9 @@
 //! The section of `nmt stress`: cases by methods, and errors along what is swept.
 
-use super::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use super::find::Found;
 use super::html::{Cell, Table, escape};
 use super::value::{number as number_of, text, words};
+use crate::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use serde_json::Value;
 
 /// Most methods that are columns.

@@ -330,6 +330,7 @@ mod tests {
     use super::*;
     use crate::dataset::{Blocks, Rows};
     use crate::model::{Mlp, Provenance};
+    use crate::numeric::require::or_skip;
     use crate::numeric::rng::stream;
     use fearless_simd::Level;
     use rand::RngExt;
@@ -340,21 +341,12 @@ mod tests {
         toml::from_str("hidden = [8, 4]\nepochs = 1\nbatch = 64\nlearning_rate = 1e-3").unwrap()
     }
 
-    /// burn's backends that can be had here. One without its device is said aloud, and a failure where `NMT_REQUIRE` names it (`gpu` for wgpu, `cuda`).
+    /// burn's backends that can be had here. One without its device is reported as skipped (`gpu` for wgpu, `cuda`).
     fn engines() -> Vec<Engine> {
-        let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
         let mut engines = Engine::ALL.to_vec();
-        engines.retain(|engine| match engine.adapter() {
-            Ok(_) => true,
-            Err(why) => {
-                let tool = if engine.name() == "wgpu" { "gpu" } else { engine.name() };
-                assert!(
-                    !required.split(',').any(|name| name.trim() == tool),
-                    "{tool} is required: {why}"
-                );
-                println!("skipped: {why}");
-                false
-            }
+        engines.retain(|engine| {
+            let tool = if engine.name() == "cuda" { "cuda" } else { "gpu" };
+            or_skip(tool, engine.adapter()).is_some()
         });
         #[cfg(feature = "burn")]
         assert!(engines.contains(&Engine::Ndarray));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 /// Top to bottom; modules on one line do not import one another.
 const ORDER: [&[&str]; 15] = [
     &["numeric"],
-    &["pixel"],
+    &["pixel", "chart"],
     &["synth", "scene"],
     &["moments"],
     &["features"],

@@ -2,8 +2,9 @@
 //! independent reader.
 
 mod cli;
+#[path = "../common/mod.rs"]
+mod common;
 mod docs;
-mod fuzz;
 mod layers;
 mod python;
 mod report;

@@ -1,20 +1,15 @@
 //! The independent reader, on files that the program wrote.
 
-use crate::cli::{Workplace, nmt};
+use crate::common::{Workplace, nmt};
+use nmt::numeric::require::or_skip;
 use std::process::Command;
 
-/// The interpreter that has NumPy and onnxruntime; a visible skip where there is none, a failure where onnxruntime is required.
+/// The interpreter that has NumPy and onnxruntime; none, reported as skipped, where it is missing.
 fn python() -> Option<String> {
-    let found = std::env::var("NMT_PYTHON").ok();
-    let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-    if found.is_none() {
-        assert!(
-            !required.split(',').any(|t| t == "onnxruntime"),
-            "required, but NMT_PYTHON is not set; scripts/test sets it"
-        );
-        eprintln!("SKIPPED: NMT_PYTHON is not set; scripts/test sets it");
-    }
-    found
+    or_skip(
+        "python",
+        std::env::var("NMT_PYTHON").map_err(|_| "NMT_PYTHON is not set; scripts/test sets it"),
+    )
 }
 
 /// Features and T from the exported JSON alone agree with `nmt predict`, with onnxruntime on the exported ONNX, and with the dataset; and

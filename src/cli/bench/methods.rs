@@ -3,7 +3,7 @@
 use super::{Common, Turns, cells, merged};
 use crate::bench::Summary;
 use crate::bench::methods::{Clock, Contender, Cost, FrontTime, NONE, Setting, Table};
-use crate::bench::scatter::{Captions, Point, is_drawn, svg};
+use crate::chart::{Tradeoff, tradeoffs};
 use crate::cli::Verdict;
 use crate::cli::predict::SkipName;
 use crate::cli::scene::{SceneOptions, ViewOptions, load};
@@ -155,7 +155,7 @@ impl BenchMethods {
         if let Some(out) = &self.out {
             for (device, table) in &tables {
                 let path = out.join(picture(*device));
-                let text = chart(&scene, table);
+                let Some(text) = chart(&scene, table) else { continue };
                 write_atomically(&path, replace, |w| w.write_all(text.as_bytes()))?;
                 written += &format!("{}\n", path.display());
             }
@@ -361,18 +361,20 @@ fn table_text(t: &Table, repeat: usize) -> String {
     )
 }
 
-/// Time against error of one adapter.
-fn chart(scene: &str, t: &Table) -> String {
-    let points: Vec<Point> = t
+/// Time against error of one adapter; none where no method has a place on logarithmic axes.
+fn chart(scene: &str, t: &Table) -> Option<String> {
+    let methods: Vec<Tradeoff> = t
         .costs
         .iter()
         .filter(|c| c.method != NONE)
-        .map(|c| Point {
-            label: label(c),
-            time: 1e9 * t.time(c) / c.fragments as f64,
+        .map(|c| Tradeoff {
+            name: label(c),
+            cost: 1e9 * t.time(c) / c.fragments as f64,
+            spread: None,
             error: c.error().unwrap_or(f64::NAN),
             on_front: c.on_front,
             network: c.network.is_some(),
+            title: label(c),
         })
         .collect();
     let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {
@@ -380,10 +382,10 @@ fn chart(scene: &str, t: &Table) -> String {
     } else {
         "T-MSE"
     };
-    let undrawn: Vec<String> = points
+    let undrawn: Vec<String> = methods
         .iter()
-        .filter(|p| !is_drawn(p))
-        .map(|p| format!("{} ({})", p.label, if p.error == 0.0 { "exact" } else { "NaN" }))
+        .filter(|m| !m.is_drawn())
+        .map(|m| format!("{} ({})", m.name, if m.error == 0.0 { "exact" } else { "NaN" }))
         .collect();
     let empty = t
         .costs
@@ -403,11 +405,8 @@ fn chart(scene: &str, t: &Table) -> String {
         FrontTime::Weights => "pass 2",
         FrontTime::Both => "both passes",
     };
-    let captions = Captions {
-        title: format!("{scene} on {}", t.adapter),
-        time: format!("{time}, ns a fragment ({clock})"),
-        error: error.to_owned(),
-        foot: format!("{}{missing}", empty.unwrap_or_default()),
-    };
-    svg(&captions, &points)
+    let title = format!("{scene} on {}", t.adapter);
+    let cost = format!("{time}, ns a fragment ({clock})");
+    tradeoffs(format!("{title}: {cost} against {error}"), &cost, error, &methods)
+        .document(&title, &format!("{}{missing}", empty.unwrap_or_default()))
 }

@@ -1,11 +1,11 @@
 //! `nmt bench tiles`
 
-use super::Verdict;
-use super::predict::SkipName;
-use super::scene::{SceneOptions, load};
-use super::ui::{Ui, table};
 use crate::bench::Summary;
 use crate::bench::tiles::{FrameSamples, Frames, Work, frames};
+use crate::cli::Verdict;
+use crate::cli::predict::SkipName;
+use crate::cli::scene::{SceneOptions, load};
+use crate::cli::ui::{Ui, table};
 use crate::export::Format;
 use crate::gpu::{Gpu, MethodShader};
 use crate::model::file;
