@@ -12,7 +12,7 @@ pub mod tiles;
 pub mod train;
 
 pub use network::Network;
-pub use summary::Summary;
+pub use summary::{Summary, comparison};
 
 use crate::dataset::DatasetError;
 use crate::model::ShapeError;

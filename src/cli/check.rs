@@ -5,7 +5,7 @@ use super::export::FormatArguments;
 use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
 use crate::export::Format;
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, shipped};
 use crate::numeric::require;
 use anyhow::bail;
 use clap::Args;
@@ -29,7 +29,7 @@ pub struct Check {
 #[derive(Args, Clone)]
 pub struct CheckArguments {
     /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the same.
-    #[arg(long, value_delimiter = ',', value_name = "TOOLS")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "TOOLS")]
     require: Vec<String>,
 }
 
@@ -59,7 +59,7 @@ impl CheckArguments {
 
 impl Check {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let mlp = file::load(&self.model)?;
+        let mlp = shipped::open(&self.model)?;
         let findings = findings(&mlp, &self.exports, &self.formats.formats()?, &self.options, ui)?;
         if ui.json() {
             ui.print_json("check", findings.iter().map(to_json).collect())?;

@@ -21,6 +21,7 @@ pub struct Config {
     pub synth: SynthConfig,
     pub dataset: DatasetConfig,
     pub train: TrainConfig,
+    #[serde(default)]
     pub evaluate: EvaluateConfig,
 }
 
@@ -53,6 +54,12 @@ fn merge(base: &mut Table, changes: Table) {
 pub struct EvaluateConfig {
     /// Fragments, at least, of fresh pixels.
     pub pairs: u64,
+}
+
+impl Default for EvaluateConfig {
+    fn default() -> Self {
+        Self { pairs: 500_000 }
+    }
 }
 
 impl Config {

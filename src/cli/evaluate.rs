@@ -12,7 +12,7 @@ use crate::export::Format;
 use crate::features::MomentFrame;
 use crate::gpu::pipeline::Storage;
 use crate::gpu::{Gpu, GpuError, MethodShader};
-use crate::model::file;
+use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
 use crate::oit::{Method, all_names, parse};
@@ -26,13 +26,13 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub struct Evaluate {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
-    #[arg(long, value_name = "F.npz|SCENE", required = true, num_args = 1..)]
+    #[arg(long, value_name = "F.npz|SCENE", required = true, value_delimiter = ',', num_args = 1..)]
     fragments: Vec<String>,
     /// Methods, by name; "all" stands for every classic one.
-    #[arg(long, value_delimiter = ',', default_value = "all")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "all")]
     methods: Vec<String>,
     /// Networks to evaluate beside them.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
@@ -231,7 +231,7 @@ impl Evaluate {
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
+        let shader = |path: &Path| shipped::open(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
         for name in &self.methods {
             let (names, demanded) = if name == "all" {
                 (all_names(), false)
@@ -256,14 +256,14 @@ impl Evaluate {
             }
         }
         for path in &self.model {
-            let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
+            let method = Box::new(Neural::new(shipped::open(path)?).with_skip(self.skip.into()));
             methods.push(Asked {
                 method,
                 demanded: true,
                 skips: true,
                 shader: self.gpu.then(|| shader(path)).transpose()?,
             });
-            let after = Neural::new(file::load(path)?)
+            let after = Neural::new(shipped::open(path)?)
                 .with_skip(self.skip.into())
                 .with_frame(MomentFrame::Pixel);
             // A network whose moments are not of logarithmic depth has no other frame.

@@ -12,6 +12,7 @@ pub mod quantise;
 pub mod real;
 pub mod require;
 pub mod rng;
+pub mod similar;
 pub mod roots;
 pub mod tolerance;
 pub mod unit_circle;

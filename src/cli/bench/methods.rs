@@ -12,7 +12,7 @@ use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
 use crate::export::Format;
 use crate::gpu::{Gpu, classic};
-use crate::model::file;
+use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
 use crate::oit::{all_names, parse};
@@ -28,19 +28,19 @@ pub struct BenchMethods {
     #[arg(long, value_name = "F.npz|SCENE")]
     fragments: String,
     /// Methods, by name; "shaders" stands for every classic one that runs on the GPU, "all" for every classic one.
-    #[arg(long, value_delimiter = ',', default_value = "shaders")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "shaders")]
     methods: Vec<String>,
     /// Networks to measure beside them.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Forms of the networks' shaders.
-    #[arg(long, value_delimiter = ',', default_value = "wgsl", value_parser = wgsl)]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "wgsl", value_parser = wgsl)]
     format: Vec<Format>,
     /// Which fragments to run the networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
     /// Where to measure.
-    #[arg(long, value_enum, value_delimiter = ',', default_values = ["cpu", "gpu"])]
+    #[arg(long, value_enum, value_delimiter = ',', num_args = 1.., default_values = ["cpu", "gpu"])]
     device: Vec<Device>,
     /// Folder for results.json and the pictures of time against error.
     #[arg(long, value_name = "DIR")]
@@ -207,7 +207,7 @@ impl BenchMethods {
             }
         }
         for path in &self.model {
-            let contender = Contender::Network(Box::new(file::load(path)?));
+            let contender = Contender::Network(Box::new(shipped::open(path)?));
             demanded.insert(contender.name());
             contenders.push(contender);
         }

@@ -7,12 +7,14 @@ mod tiles;
 mod train;
 
 use super::Verdict;
-use super::ui::{Progress, Ui, table};
-use crate::bench::{Measurement, Network, Plan, Summary};
+use super::ui::{Progress, Ui, report, table};
+use crate::bench::{Measurement, Network, Plan, Summary, comparison};
 use crate::features::FeatureSet;
+use crate::numeric::file::{Replace, may_write, write_atomically};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
+use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Bench {
@@ -37,7 +39,7 @@ enum What {
 /// Options of every benchmark.
 #[derive(Args)]
 struct Common {
-    /// Repetitions; what is compared takes turns in each.
+    /// Repetitions; each runs everything that is compared, one after the other.
     #[arg(long, value_name = "N", default_value_t = 15)]
     repeat: usize,
     /// Least time of a repetition in seconds.
@@ -46,6 +48,51 @@ struct Common {
     /// Threads, instead of one a core.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+}
+
+/// Where a benchmark's numbers go besides the terminal.
+#[derive(Args)]
+struct Output {
+    /// Folder for results.json, which holds all numbers with their raw samples.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace what is there.
+    #[arg(long)]
+    force: bool,
+}
+
+/// The file that holds all numbers.
+const RESULTS: &str = "results.json";
+
+impl Output {
+    fn replace(&self) -> Replace {
+        if self.force { Replace::Yes } else { Replace::No }
+    }
+
+    /// Refuses, before anything is measured, to write over what is there.
+    fn check(&self) -> anyhow::Result<()> {
+        if let Some(out) = &self.out {
+            may_write(&out.join(RESULTS), self.replace())?;
+        }
+        Ok(())
+    }
+
+    /// Writes the numbers, and prints them or the text.
+    fn give(&self, ui: &Ui, results: Vec<Value>, text: &str) -> anyhow::Result<Verdict> {
+        let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
+        let mut written = String::new();
+        if let Some(out) = &self.out {
+            let path = out.join(RESULTS);
+            write_atomically(&path, self.replace(), |w| w.write_all(json.as_bytes()))?;
+            written = format!("{}\n", path.display());
+        }
+        if ui.json() {
+            ui.print(&json)?;
+        } else {
+            ui.print(&format!("{text}{written}"))?;
+        }
+        Ok(Verdict::Fine)
+    }
 }
 
 impl Common {
@@ -187,31 +234,23 @@ fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
 
 /// A table of networks, each group against its first.
 fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
-    let mut rows = vec![cells([
-        "network", "batch", "backend", "simd", unit, "ms", "min", "max", "MAD", "GFLOP/s", "of peak", "ratio",
-    ])];
-    for m in groups
-        .iter()
-        .flat_map(|group| group.iter().map(move |m| (m, &group[0])))
-        .map(|(m, first)| {
+    let head = ["network", "batch", "backend", "simd", unit, "ms", "+- MAD", "of peak", "ratio"];
+    let mut rows = vec![cells(head)];
+    for group in groups {
+        for m in group {
             let s = Summary::of(&m.samples.seconds);
-            vec![
+            rows.push(vec![
                 m.network.clone(),
                 m.batch.to_string(),
                 m.backend.to_owned(),
                 m.simd.unwrap_or("-").to_owned(),
                 millions(m.rows_per_second()),
                 milliseconds(s.median),
-                milliseconds(s.min),
-                milliseconds(s.max),
                 milliseconds(s.mad),
-                format!("{:.1}", m.gflops()),
                 format!("{:.1} %", 100.0 * m.share_of_peak()),
-                format!("{:.2}", m.rows_per_second() / first.rows_per_second()),
-            ]
-        })
-    {
-        rows.push(m);
+                format!("{:.2}", m.rows_per_second() / group[0].rows_per_second()),
+            ]);
+        }
     }
     let peaks: Vec<f64> = groups.iter().map(|group| group[0].peak_gflops()).collect();
     let peak = Summary::of(&peaks);
@@ -225,8 +264,21 @@ fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
         .iter()
         .filter_map(|m| m.adapter.as_ref().map(|name| format!("; {} on {name}", m.backend)))
         .collect();
+    let sentences: String = groups
+        .iter()
+        .map(|group| {
+            let samples: Vec<(&str, &[f64])> = group
+                .iter()
+                .map(|m| (m.backend, m.samples.seconds.as_slice()))
+                .collect();
+            let of = &group[0];
+            let what = (groups.len() > 1).then(|| format!("{}, batch {}: ", of.network, of.batch));
+            what.unwrap_or_default() + &comparison(&samples)
+        })
+        .collect();
     format!(
-        "{}medians of {first} repetitions by turns on {} threads; ms of one call; multiply-add peak {range} GFLOP/s, the best of the same turns{on_gpus}\n",
+        "{}Medians of {first} interleaved repetitions on {} threads, with their median absolute deviation (MAD); ms of one call.\n\
+         Multiply-add peak {range} GFLOP/s, the best of the same repetitions{on_gpus}.\n\n{sentences}",
         table(&rows),
         rayon::current_num_threads()
     )

@@ -5,7 +5,7 @@ use super::{
     timing,
 };
 use crate::bench::train::{self, Streaming};
-use crate::bench::{Summary, network};
+use crate::bench::{Samples, Summary, network};
 use crate::cli::Verdict;
 use crate::cli::config::Config;
 use crate::cli::train::BackendName;
@@ -14,25 +14,25 @@ use crate::dataset::{Rows, file as dataset_file};
 use crate::train::{Backend, Engine};
 use anyhow::{Context, bail};
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct BenchTrain {
     /// What computes the gradients [default: fused and burn's backends for the CPU; fused with --stream].
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_enum, value_delimiter = ',', num_args = 1..)]
     backend: Vec<BackendName>,
     /// Train whole epochs of a configuration with fresh pixels, against the same rows in memory and against generation alone.
     #[arg(long, value_name = "CONFIG", conflicts_with_all = ["network", "features", "batch", "rows", "dataset"])]
     stream: Option<PathBuf>,
     /// Sizes of networks; the first chooses the feature set by its width (7 paper, 9 recentred-6, 11 recentred-8).
-    #[arg(long, value_name = "SIZES", value_delimiter = ',', default_values = ["7-32-16-1"])]
+    #[arg(long, value_name = "SIZES", value_delimiter = ',', num_args = 1.., default_values = ["7-32-16-1"])]
     network: Vec<String>,
     /// Feature set, instead of the first of that width.
     #[arg(long, value_name = "NAME", conflicts_with = "dataset")]
     features: Option<String>,
     /// Rows of one step, multiples of 16.
-    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = [8192])]
+    #[arg(long, value_name = "N", value_delimiter = ',', num_args = 1.., default_values_t = [8192])]
     batch: Vec<usize>,
     /// Random rows in memory; at least one batch is made.
     #[arg(long, value_name = "N", default_value_t = 262_144)]
@@ -42,10 +42,13 @@ pub struct BenchTrain {
     dataset: Option<PathBuf>,
     #[command(flatten)]
     common: Common,
+    #[command(flatten)]
+    output: Output,
 }
 
 impl BenchTrain {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        self.output.check()?;
         let mut backends: Vec<Backend> = self
             .backend
             .iter()
@@ -86,78 +89,12 @@ impl BenchTrain {
                 train::stream_epochs(plan, &dataset, &config.train, config.seed, backend, progress)
             })?);
         }
-        let figures = |s: &Streaming| {
-            [
-                ("in memory", &s.in_memory),
-                ("streamed", &s.streamed),
-                ("generation", &s.generation),
-            ]
-            .map(|(n, s)| (n, s.clone()))
-        };
         let all = results
             .iter()
             .flat_map(|s| figures(s).map(|(name, of)| (format!("{name} by {}", s.backend), Summary::of(&of.seconds))));
         turns.finish(&all.collect::<Vec<_>>());
-        if ui.json() {
-            let of = |s: &Streaming| {
-                let [in_memory, generation] = [&s.in_memory, &s.generation].map(|of| Summary::of(&of.rates).median);
-                let object = json!({
-                    "benchmark": "train", "stream": config.name, "network": s.network, "backend": s.backend, "adapter": s.adapter, "batch": s.batch,
-                    "rows": s.rows, "refresh": s.refresh, "samples_per_second": s.samples_per_second(), "in_memory_samples_per_second": in_memory,
-                    "pairs_per_second": generation, "bound_samples_per_second": s.bound(), "raw_in_memory_seconds": s.in_memory.seconds,
-                    "raw_generation_seconds": s.generation.seconds,
-                });
-                merged(object, timing(&s.streamed.seconds, s.streamed.calls))
-            };
-            return ui
-                .print_json("bench", results.iter().map(of).collect())
-                .map(|()| Verdict::Fine);
-        }
-        let mut rows = vec![cells([
-            "network",
-            "batch",
-            "backend",
-            "rows",
-            "rate",
-            "ms",
-            "min",
-            "max",
-            "MAD",
-            "of memory",
-            "of bound",
-        ])];
-        for s in &results {
-            let (training, bound) = (Summary::of(&s.in_memory.rates).median, s.bound());
-            for (name, samples) in figures(s) {
-                let (time, rate) = (Summary::of(&samples.seconds), Summary::of(&samples.rates).median);
-                let share = |of: f64| {
-                    if name == "streamed" {
-                        format!("{:.2}", rate / of)
-                    } else {
-                        "-".to_owned()
-                    }
-                };
-                let times = [time.median, time.min, time.max, time.mad].map(milliseconds);
-                let head = [
-                    s.network.clone(),
-                    s.batch.to_string(),
-                    s.backend.to_owned(),
-                    name.to_owned(),
-                    millions(rate),
-                ];
-                rows.push([head.to_vec(), times.to_vec(), vec![share(training), share(bound)]].concat());
-            }
-        }
-        let (first, threads) = (&results[0], rayon::current_num_threads());
-        ui.print(&format!(
-            "{}medians of {} repetitions by turns on {threads} threads; rows/s, ms of one call: an epoch of {} rows with its validation, or {:.0} % of as many \
-             rows generated; the bound is what both at full speed on the same cores allow\n",
-            table(&rows),
-            plan.repeat,
-            first.rows,
-            100.0 * first.refresh
-        ))?;
-        Ok(Verdict::Fine)
+        let json = results.iter().map(|s| streaming_json(&config.name, s)).collect();
+        self.output.give(ui, json, &streaming_text(&results, plan.repeat))
     }
 
     fn in_memory(&self, backends: &[Backend], ui: &Ui) -> anyhow::Result<Verdict> {
@@ -190,18 +127,63 @@ impl BenchTrain {
             }
         }
         turns.finish(&summaries(&groups));
-        if ui.json() {
-            ui.print_json(
-                "bench",
-                groups
-                    .iter()
-                    .flatten()
-                    .map(|m| measurement_json("train", &["samples_per_second"], m))
-                    .collect(),
-            )?;
-        } else {
-            ui.print(&measurement_table("samples/s", &groups))?;
-        }
-        Ok(Verdict::Fine)
+        let measured = groups.iter().flatten();
+        let json = measured.map(|m| measurement_json("train", &["samples_per_second"], m)).collect();
+        self.output.give(ui, json, &measurement_table("samples/s", &groups))
     }
+}
+
+/// What was measured of a configuration, by name.
+fn figures(s: &Streaming) -> [(&'static str, &Samples); 3] {
+    [
+        ("in memory", &s.in_memory),
+        ("streamed", &s.streamed),
+        ("generation", &s.generation),
+    ]
+}
+
+fn streaming_json(name: &str, s: &Streaming) -> Value {
+    let [in_memory, generation] = [&s.in_memory, &s.generation].map(|of| Summary::of(&of.rates).median);
+    let object = json!({
+        "benchmark": "train", "stream": name, "network": s.network, "backend": s.backend, "adapter": s.adapter,
+        "batch": s.batch, "rows": s.rows, "refresh": s.refresh, "samples_per_second": s.samples_per_second(),
+        "in_memory_samples_per_second": in_memory, "pairs_per_second": generation, "bound_samples_per_second": s.bound(),
+        "raw_in_memory_seconds": s.in_memory.seconds, "raw_generation_seconds": s.generation.seconds,
+    });
+    merged(object, timing(&s.streamed.seconds, s.streamed.calls))
+}
+
+fn streaming_text(results: &[Streaming], repeat: usize) -> String {
+    let head = ["backend", "rows", "rows/s", "ms", "+- MAD", "of memory", "of bound"];
+    let mut rows = vec![cells(head)];
+    for s in results {
+        let (training, bound) = (Summary::of(&s.in_memory.rates).median, s.bound());
+        for (name, samples) in figures(s) {
+            let (time, rate) = (Summary::of(&samples.seconds), Summary::of(&samples.rates).median);
+            let share = |of: f64| match name {
+                "streamed" => format!("{:.2}", rate / of),
+                _ => "-".to_owned(),
+            };
+            rows.push(vec![
+                s.backend.to_owned(),
+                name.to_owned(),
+                millions(rate),
+                milliseconds(time.median),
+                milliseconds(time.mad),
+                share(training),
+                share(bound),
+            ]);
+        }
+    }
+    let (first, threads) = (&results[0], rayon::current_num_threads());
+    format!(
+        "{}, batch {}\n{}Medians of {repeat} interleaved repetitions on {threads} threads, with their median absolute deviation (MAD).\n\
+         A call is an epoch of {} rows with its validation, or {:.0} % of as many rows generated.\n\
+         The bound is what training and generation, both at full speed on the same cores, allow.\n",
+        first.network,
+        first.batch,
+        table(&rows),
+        first.rows,
+        100.0 * first.refresh
+    )
 }

@@ -4,7 +4,7 @@ mod tables;
 
 use super::Verdict;
 use super::ui::{Ui, report};
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, shipped};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::stress::bias::{self, BiasPoint};
 use crate::stress::rows;
@@ -19,13 +19,13 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct Stress {
     /// Networks, each run in every arithmetic, storage and format of weights.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Methods, by name; "all" stands for every classic one, "none" for none.
-    #[arg(long, value_delimiter = ',', default_values = DEFAULT_METHODS)]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_values = DEFAULT_METHODS)]
     methods: Vec<String>,
     /// Cases, by name, instead of all.
-    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', num_args = 1..)]
     cases: Vec<String>,
     /// Also evaluate every network for so many random fragments, once in one pass and once after a prepass.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -105,7 +105,7 @@ impl Stress {
         let mlps: Vec<Mlp> = self
             .model
             .iter()
-            .map(|path| file::load(path))
+            .map(|path| shipped::open(path))
             .collect::<Result<_, _>>()?;
         let (networks, mut executions) = (suite::networks(&mlps)?, suite::executions(&mlps)?);
         let classic = suite::classic(&self.methods)?;
