@@ -66,7 +66,12 @@ pub fn comparison(seconds: &[(&str, &[f64])]) -> String {
     let mut others: Vec<usize> = (0..medians.len()).filter(|&i| i != fastest).collect();
     others.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
     let of = |&other: &usize| {
-        let ratios: Vec<f64> = seconds[other].1.iter().zip(seconds[fastest].1).map(|(o, f)| o / f).collect();
+        let ratios: Vec<f64> = seconds[other]
+            .1
+            .iter()
+            .zip(seconds[fastest].1)
+            .map(|(o, f)| o / f)
+            .collect();
         let Summary { median, mad, .. } = Summary::of(&ratios);
         format!("{median:.2} ± {mad:.2} times faster than {}", seconds[other].0)
     };
@@ -136,7 +141,10 @@ mod tests {
             "fused ran\n  4.00 ± 0.00 times faster than flex\n  10.00 ± 0.00 times faster than ndarray\n"
         );
         // Control: a subject alone is compared with nothing.
-        assert_eq!((comparison(&[("fused", &fast)]), comparison(&[])), (String::new(), String::new()));
+        assert_eq!(
+            (comparison(&[("fused", &fast)]), comparison(&[])),
+            (String::new(), String::new())
+        );
     }
 
     /// An outlier moves neither the median nor the MAD of many. Control: it moves the greatest.

@@ -10,7 +10,7 @@ use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_
 use crate::evaluate::{MethodResult, Truth};
 use crate::export::Format;
 use crate::features::MomentFrame;
-use crate::gpu::pipeline::Storage;
+use crate::gpu::pipeline::TargetPrecision;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
@@ -68,7 +68,7 @@ enum StorageName {
     Half,
 }
 
-impl From<StorageName> for Storage {
+impl From<StorageName> for TargetPrecision {
     fn from(name: StorageName) -> Self {
         match name {
             StorageName::Full => Self::Full,
@@ -356,7 +356,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
 }
 
 /// What the GPU drew, as a table under its name.
-fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[(MethodResult, Option<GpuResult>)]) -> String {
+fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Option<GpuResult>)]) -> String {
     if results.iter().all(|r| r.1.is_none()) {
         return String::new();
     }

@@ -10,7 +10,9 @@ use crate::oit::neural::Skip;
 use crate::profile::facts::Histogram;
 use crate::profile::simplify::{Report, Simplified, simplify};
 use crate::profile::specialise::{Attempt, Plan, SizeChoice, Specialised, specialise};
-use crate::profile::{Facts, Networked, Recommendation, Scene, facts, default_networks, look_into, network, recommend, skip};
+use crate::profile::{
+    Facts, Networked, Recommendation, Scene, default_networks, facts, look_into, network, recommend, skip,
+};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::json;
@@ -426,7 +428,15 @@ fn words(r: &Recommendation) -> String {
 
 fn specialised(made: &Specialised, image: bool, out: &Path) -> String {
     let kind = if image { "image MSE" } else { "T-MSE" };
-    let head = ["", "network", "multiply-adds", kind, "held out", "keeps the error", "seconds"];
+    let head = [
+        "",
+        "network",
+        "multiply-adds",
+        kind,
+        "held out",
+        "keeps the error",
+        "seconds",
+    ];
     let mut rows = vec![cells(head)];
     let row = |mark: &str, a: &Attempt, kept: &str| {
         vec![

@@ -155,7 +155,10 @@ fn table_within(rows: &[Vec<String>], most: usize) -> String {
     }
     let lines = |block: &Vec<usize>| {
         let line = |text: &dyn Fn(usize) -> String| {
-            let cells: Vec<String> = block.iter().map(|&c| format!("{:<w$}", text(c), w = widths[c])).collect();
+            let cells: Vec<String> = block
+                .iter()
+                .map(|&c| format!("{:<w$}", text(c), w = widths[c]))
+                .collect();
             format!("{}\n", cells.join("  ").trim_end())
         };
         let mut text = String::new();
@@ -183,7 +186,10 @@ mod tests {
     /// Wide tables go on below, and no line is longer than the terminal. Control: with room they stay whole.
     #[test]
     fn wide_tables_go_on_below() {
-        let rows = [["*", "method", "image MSE", "FLIP", "seconds"], ["", "hair", "1e-5", "0.01", "2"]];
+        let rows = [
+            ["*", "method", "image MSE", "FLIP", "seconds"],
+            ["", "hair", "1e-5", "0.01", "2"],
+        ];
         let rows = rows.map(|r| r.map(str::to_owned).to_vec());
         let narrow = table_within(&rows, 24);
         assert!(narrow.lines().all(|line| line.len() <= 24), "{narrow}");

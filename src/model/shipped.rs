@@ -62,7 +62,10 @@ mod tests {
     #[test]
     fn other_words_are_refused() {
         let message = open(Path::new("recomended")).unwrap_err().to_string();
-        assert!(message.contains("did you mean 'recommended'?") && message.contains("moments-6"), "{message}");
+        assert!(
+            message.contains("did you mean 'recommended'?") && message.contains("moments-6"),
+            "{message}"
+        );
         assert!(matches!(open(Path::new("./small")), Err(ModelError::File(_))));
         assert!(matches!(open(Path::new("none.json")), Err(ModelError::File(_))));
     }

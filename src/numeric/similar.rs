@@ -27,7 +27,11 @@ mod tests {
     #[test]
     fn slips_are_understood() {
         let known = ["glass-stacks", "smoke", "hair", "teapots", "recommended"];
-        for (typed, meant) in [("glas-stacks", "glass-stacks"), ("teapot", "teapots"), ("Recomended", "recommended")] {
+        for (typed, meant) in [
+            ("glas-stacks", "glass-stacks"),
+            ("teapot", "teapots"),
+            ("Recomended", "recommended"),
+        ] {
             assert_eq!(nearest(typed, known), Some(meant));
         }
         assert_eq!(suggestion("castle", known), "");

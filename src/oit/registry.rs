@@ -5,8 +5,8 @@ use super::{
     low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
     two_moment_passes, weighted_average, weighted_blended, weighted_sum,
 };
-use crate::numeric::similar::suggestion;
 use crate::model::ModelError;
+use crate::numeric::similar::suggestion;
 
 /// What a name says after its head.
 #[derive(Debug, Clone, Copy)]

@@ -8,3 +8,4 @@ mod docs;
 mod layers;
 mod python;
 mod report;
+mod shaders;

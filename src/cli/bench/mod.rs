@@ -234,7 +234,9 @@ fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
 
 /// A table of networks, each group against its first.
 fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
-    let head = ["network", "batch", "backend", "simd", unit, "ms", "+- MAD", "of peak", "ratio"];
+    let head = [
+        "network", "batch", "backend", "simd", unit, "ms", "+- MAD", "of peak", "ratio",
+    ];
     let mut rows = vec![cells(head)];
     for group in groups {
         for m in group {

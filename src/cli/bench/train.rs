@@ -128,7 +128,9 @@ impl BenchTrain {
         }
         turns.finish(&summaries(&groups));
         let measured = groups.iter().flatten();
-        let json = measured.map(|m| measurement_json("train", &["samples_per_second"], m)).collect();
+        let json = measured
+            .map(|m| measurement_json("train", &["samples_per_second"], m))
+            .collect();
         self.output.give(ui, json, &measurement_table("samples/s", &groups))
     }
 }

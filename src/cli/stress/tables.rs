@@ -231,7 +231,7 @@ pub fn random(found: &[RandomReport]) -> String {
         let c = &f.counts;
         let counts = [
             c.fragments,
-            c.asked,
+            c.evaluated,
             c.nonfinite,
             c.out_of_range,
             c.nearest_not_one,
