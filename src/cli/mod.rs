@@ -14,6 +14,8 @@ mod profile;
 mod report;
 mod run;
 mod scene;
+#[cfg(test)]
+mod schema;
 mod shell;
 mod stress;
 mod train;

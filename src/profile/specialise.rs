@@ -470,7 +470,7 @@ fn search(
     let mut tried: Vec<(Attempt, Mlp)> = Vec::new();
     // The network that shrinking goes on from, and the multiply-adds that are known to be too few.
     let (mut from, mut too_few) = (mlp.clone(), 0);
-    let mut next = None;
+    let mut next: Option<Vec<usize>> = None;
     while tried.len() < most {
         let begun = std::time::Instant::now();
         let start = match &next {

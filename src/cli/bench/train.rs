@@ -1,8 +1,8 @@
 //! `nmt bench train`
 
 use super::{
-    Common, Turns, cells, measurement_json, measurement_table, merged, millions, milliseconds, networks, summaries,
-    timing,
+    Common, Output, Turns, cells, measurement_json, measurement_table, merged, millions, milliseconds, networks,
+    summaries, timing,
 };
 use crate::bench::train::{self, Streaming};
 use crate::bench::{Samples, Summary, network};
