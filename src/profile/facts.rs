@@ -80,10 +80,96 @@ impl Histogram {
     }
 }
 
-/// A kind of fragment.
+/// How a fragment is answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Alone in its pixel.
+    Single,
+    /// One of two.
+    OneOfTwo,
+    /// The nearest of three and more.
+    Nearest,
+    /// The farthest of three and more.
+    Farthest,
+    /// Nothing else in its pixel absorbs.
+    Alone,
+    /// The middle one of three.
+    OneOfThree,
+    /// One of the two in the middle of four.
+    OneOfFour,
+    /// Its pixel is too faint to be seen.
+    Faint,
+    /// What lies in front of it hides it.
+    Hidden,
+    /// The network answers it.
+    Network,
+}
+
+impl Kind {
+    /// All of them, in the order in which they are shown.
+    pub const ALL: [Self; 10] = [
+        Self::Single,
+        Self::OneOfTwo,
+        Self::Nearest,
+        Self::Farthest,
+        Self::Alone,
+        Self::OneOfThree,
+        Self::OneOfFour,
+        Self::Faint,
+        Self::Hidden,
+        Self::Network,
+    ];
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Single => "one in its pixel",
+            Self::OneOfTwo => "one of two",
+            Self::Nearest => "nearest",
+            Self::Farthest => "farthest",
+            Self::Alone => "nothing else in its pixel absorbs",
+            Self::OneOfThree => "one of three",
+            Self::OneOfFour => "one of four",
+            Self::Faint => "of a faint pixel",
+            Self::Hidden => "hidden",
+            Self::Network => "the rest",
+        }
+    }
+
+    /// What answers it.
+    pub fn answer(self) -> &'static str {
+        match self {
+            Self::Single | Self::OneOfTwo | Self::Nearest | Self::Farthest | Self::Alone => "exact",
+            Self::OneOfThree | Self::OneOfFour => "closed form",
+            Self::Faint | Self::Hidden => "bound, under visible",
+            Self::Network => "network",
+        }
+    }
+
+    /// The kind of a fragment of a pixel of so many.
+    fn of(count: usize, class: Class) -> Self {
+        match (count, class) {
+            (1, _) => Self::Single,
+            (2, _) => Self::OneOfTwo,
+            (_, Class::Nearest) => Self::Nearest,
+            (_, Class::Farthest) => Self::Farthest,
+            (_, Class::Alone) => Self::Alone,
+            (_, Class::Three) => Self::OneOfThree,
+            (_, Class::Four) => Self::OneOfFour,
+            (_, Class::Faint) => Self::Faint,
+            (_, Class::Hidden) => Self::Hidden,
+            (_, Class::Known | Class::Network) => Self::Network,
+        }
+    }
+}
+
+/// How many fragments are of a kind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Share {
     /// Which.
+    #[serde(skip)]
+    pub kind: Kind,
+    /// Its name.
     pub class: &'static str,
     /// How it is answered.
     pub answer: &'static str,
@@ -144,6 +230,11 @@ pub struct Facts {
 }
 
 impl Facts {
+    /// Fragments of a kind, as a share of all.
+    pub fn share(&self, kind: Kind) -> f64 {
+        self.classes.iter().find(|c| c.kind == kind).map_or(0.0, |c| c.share)
+    }
+
     /// The histograms of the scene and, below them, how every fragment is answered, as an SVG file.
     pub fn drawing(&self, title: &str) -> String {
         let panel = |h: &Histogram| Panel {
@@ -239,18 +330,7 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
     for &p in &covered {
         let (pixel, own) = (list.pixel(p), list.range(p));
         for &class in &class[own] {
-            counts[match (pixel.len(), class) {
-                (1, _) => 0,
-                (2, _) => 1,
-                (_, Class::Nearest) => 2,
-                (_, Class::Farthest) => 3,
-                (_, Class::Alone) => 4,
-                (_, Class::Three) => 5,
-                (_, Class::Four) => 6,
-                (_, Class::Faint) => 7,
-                (_, Class::Hidden) => 8,
-                (_, Class::Known | Class::Network) => 9,
-            }] += 1;
+            counts[Kind::of(pixel.len(), class) as usize] += 1;
         }
         abuffer::front_to_back(pixel, &mut order);
         let opaque = order
@@ -260,25 +340,14 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             .map(|i| pixel.view_z[i]);
         behind_opaque += opaque.map_or(0, |v| pixel.view_z.iter().filter(|&&w| w > v).count() as u64);
     }
-    const NAMES: [(&str, &str); 10] = [
-        ("one in its pixel", "exact"),
-        ("one of two", "exact"),
-        ("nearest", "exact"),
-        ("farthest", "exact"),
-        ("nothing else in its pixel absorbs", "exact"),
-        ("one of three", "closed form"),
-        ("one of four", "closed form"),
-        ("of a faint pixel", "bound, under visible"),
-        ("hidden", "bound, under visible"),
-        ("the rest", "network"),
-    ];
     let share = |n: u64| n as f64 / list.len().max(1) as f64;
-    let classes = NAMES
+    let classes = Kind::ALL
         .into_iter()
         .zip(counts)
-        .map(|((class, answer), n)| Share {
-            class,
-            answer,
+        .map(|(kind, n)| Share {
+            kind,
+            class: kind.name(),
+            answer: kind.answer(),
             fragments: n,
             share: share(n),
         })

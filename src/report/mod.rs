@@ -14,6 +14,7 @@ mod provenance;
 mod scenes;
 mod speed;
 mod stress;
+mod summary;
 mod time;
 mod training;
 mod value;
@@ -172,7 +173,7 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
             "Speed of training, inference and generation",
             speed::section(&found),
             "speed of training, inference and generation",
-            "nmt bench train --json > DIR/train.json",
+            "nmt bench train --out DIR",
         ),
         section(
             "profile",
@@ -208,7 +209,7 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
         .iter()
         .filter_map(|s| Some((s.id, s.title, s.html.as_deref()?)))
         .collect();
-    let html = page(folder, &present, &missing, &found);
+    let html = page(folder, &present, &missing, &found, &summary::section(&found, &scenes));
     Ok(Page {
         html,
         sections: present.iter().map(|p| p.1).collect(),
@@ -229,7 +230,13 @@ fn script_hash(script: &str) -> String {
     format!("sha256-{}", base64(&bytes))
 }
 
-fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missing], found: &Found) -> String {
+fn page(
+    folder: &Path,
+    sections: &[(&str, &'static str, &str)],
+    missing: &[Missing],
+    found: &Found,
+    summary: &str,
+) -> String {
     // The folder's own name alone: a page may be given away, and other people's paths say nothing.
     let name = folder
         .canonicalize()
@@ -241,8 +248,10 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
     let name = escape(&name);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{}'\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name}: nmt report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+         <meta http-equiv=\"Content-Security-Policy\" \
+         content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{}'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}: nmt report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
         script_hash(SCRIPT),
         style()
     );
@@ -259,6 +268,7 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
         out += &format!("<li><a href=\"#{id}\">{title}</a></li>");
     }
     out += "</ul></nav>\n<main>\n";
+    out += &format!("<section id=\"summary\" aria-label=\"Summary\">\n{summary}</section>\n");
     if !found.problems.is_empty() {
         out += "<section id=\"problems\"><h2>Files that could not be used</h2>\n<ul>";
         for problem in found.problems.iter().take(MAX_PROBLEMS) {

@@ -5,6 +5,7 @@ mod cli;
 #[path = "../common/mod.rs"]
 mod common;
 mod docs;
+mod documents;
 mod layers;
 mod python;
 mod report;

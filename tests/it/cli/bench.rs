@@ -101,7 +101,7 @@ fn bench_train_measures_every_backend() {
     nmt(&table)
         .success()
         .stderr("")
-        .stdout(contains("samples/s").and(contains("multiply-add peak")));
+        .stdout(contains("samples/s").and(contains("Multiply-add peak")));
 }
 
 /// Whole epochs with fresh pixels, against rows in memory and against what both halves allow.
