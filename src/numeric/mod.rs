@@ -9,12 +9,15 @@ pub mod lanes;
 pub mod npy;
 pub mod orthogonal;
 pub mod quantise;
+pub mod real;
 pub mod require;
 pub mod rng;
 pub mod roots;
 pub mod scalar;
 pub mod similar;
+pub mod source;
 pub mod tolerance;
 pub mod unit_circle;
 
+pub use real::Real;
 pub use scalar::Scalar;

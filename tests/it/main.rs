@@ -7,6 +7,7 @@ mod common;
 mod docs;
 mod documents;
 mod layers;
+mod over_time;
 mod python;
 mod report;
 mod shaders;
