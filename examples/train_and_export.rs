@@ -34,7 +34,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         resume: false,
         provenance: Provenance::default(),
     };
-    let mut last = f64::NAN;
     let mut best = f64::NAN;
     let outcome = train(&dataset, &job, &|| false, &mut |epoch| best = epoch.best_validation)?;
     let Outcome::Finished { mlp, .. } = outcome else {
