@@ -345,10 +345,8 @@ fn moving(path: Option<CameraPath>, found: &[(MethodResult, Option<GpuResult>)])
     let truth = found.iter().find_map(|(r, _)| r.over_time?.truth_change_mse);
     match (path, truth) {
         (Some(path), Some(truth)) => format!(
-            "; {} frames, {} degrees a frame, the truth itself changes by {:.3}e-6 (mean square)",
-            path.frames,
-            path.degrees_per_frame,
-            truth * 1e6
+            "; {} frames, {} degrees a frame, the truth itself changes by {:.2e} (mean square)",
+            path.frames, path.degrees_per_frame, truth
         ),
         _ => String::new(),
     }
@@ -399,7 +397,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
     };
     let head = [
         "method",
-        "image MSE x1e-4",
+        "image MSE",
         "PSNR dB",
         "FLIP",
         "T-MSE",
@@ -411,12 +409,12 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     let moving = results.iter().any(|(r, _)| r.over_time.is_some());
     if moving {
-        lines[0].extend(["frame change x1e-6", "worst change"].map(str::to_owned));
+        lines[0].extend(["frame change", "worst change"].map(str::to_owned));
     }
     for (r, _) in results {
         let mut line = vec![
             r.method.clone(),
-            number(r.image_mse, &|x| format!("{:.4}", x * 1e4)),
+            number(r.image_mse, &|x| format!("{x:.2e}")),
             number(r.image_psnr_db, &|x| format!("{x:.1}")),
             number(r.flip_mean, &|x| format!("{x:.4}")),
             number(r.transmittance_mse, &|x| format!("{x:.2e}")),
@@ -431,9 +429,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
         ];
         if moving {
             let change = r.over_time;
-            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| {
-                format!("{:.4}", x * 1e6)
-            }));
+            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| format!("{x:.2e}")));
             line.push(number(change.and_then(|c| c.frame_change_worst), &|x| {
                 format!("{x:.4}")
             }));
@@ -454,7 +450,7 @@ fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Optio
         "99.9 % within",
         "worst",
         "FLIP to CPU",
-        "image MSE x1e-4",
+        "image MSE",
         "FLIP",
         "non-finite",
         "pass 1 ms",
@@ -468,7 +464,7 @@ fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Optio
             format!("{:.1e}", r.channel_difference_999),
             format!("{:.1e}", r.channel_difference_worst),
             format!("{:.1e}", r.flip_mean_to_cpu),
-            format!("{:.4}", r.image_mse * 1e4),
+            format!("{:.2e}", r.image_mse),
             format!("{:.4}", r.flip_mean),
             r.image_nonfinite.to_string(),
             milliseconds(r.seconds_accumulate),

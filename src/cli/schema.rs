@@ -47,6 +47,23 @@ fn tidy(value: &mut Value) {
     }
 }
 
+/// Prose in lines of at most 120 letters, the first behind a mark and the others as far in.
+fn wrapped(mark: &str, text: &str) -> String {
+    let indent = " ".repeat(mark.chars().count());
+    let mut lines = vec![mark.to_owned()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("one line or more");
+        let fresh = line.trim().is_empty() || *line == mark;
+        if !fresh && line.chars().count() + 1 + word.chars().count() > 120 {
+            lines.push(format!("{indent}{word}"));
+        } else {
+            *line += if fresh { "" } else { " " };
+            *line += word;
+        }
+    }
+    lines.join("\n")
+}
+
 fn scene_schema() -> Value {
     let mut schema = schemars::schema_for!(SceneFile).to_value();
     tidy(&mut schema);
@@ -156,7 +173,8 @@ fn fields(object: &Value) -> String {
 fn definition(name: &str, def: &Value) -> String {
     let mut out = format!("### {name}\n\n");
     if let Some(text) = def["description"].as_str() {
-        out += &format!("{text}\n\n");
+        let paragraphs: Vec<String> = text.split("\n\n").map(|p| wrapped("", p)).collect();
+        out += &format!("{}\n\n", paragraphs.join("\n\n"));
     }
     for variant in def["oneOf"].as_array().into_iter().flatten() {
         let text = variant["description"].as_str().unwrap_or("").replace("\n\n", " ");
@@ -165,11 +183,11 @@ fn definition(name: &str, def: &Value) -> String {
         match tag {
             // A law has fields of its own.
             Some(_) => {
-                out += &format!("`law = \"{value}\"`: {text}\n\n");
+                out += &format!("{}\n\n", wrapped("", &format!("`law = \"{value}\"`: {text}")));
                 let own = variant["properties"].as_object().is_some_and(|p| p.len() > 1);
                 out += &if own { fields(variant) } else { String::new() };
             }
-            None => out += &format!("- `\"{value}\"`: {text}\n"),
+            None => out += &format!("{}\n", wrapped("- ", &format!("`\"{value}\"`: {text}"))),
         }
     }
     for value in def["enum"].as_array().into_iter().flatten() {

@@ -428,5 +428,9 @@ fn series<'a>(points: impl Iterator<Item = &'a Point>) -> Vec<Series> {
         }
         lines[at].points.push(point);
     }
+    // From left to right, whatever the order of the sweep.
+    for line in &mut lines {
+        line.points.sort_by(|a, b| a.x.total_cmp(&b.x));
+    }
     lines.into_iter().chain(crosses).collect()
 }
