@@ -36,13 +36,70 @@ pub(super) struct Ruler {
     pub ticks: Vec<(f64, String)>,
 }
 
+/// Ends of an axis, and its ticks with their texts.
+type Ends = (f64, f64, Vec<(f64, String)>);
+
+fn named(names: &[String]) -> Ends {
+    let last = names.len().max(1) as f64 - 1.0;
+    let ticks = names.iter().enumerate().map(|(i, name)| (i as f64, name.clone()));
+    (-0.35, last + 0.35, ticks.collect())
+}
+
+fn linear(low: f64, high: f64) -> Ends {
+    // Differences of what is drawn must not overflow.
+    let [low, high] = [low, high].map(|v| v.clamp(-1e300, 1e300));
+    let size = high.abs().max(low.abs());
+    let step = linear_step((high - low).max(size * 1e-6).max(1e-300) / 6.0);
+    // Ends lie a little beyond what is drawn, and on 0 where that is near.
+    let room = (0.02 * (high - low)).max(0.5 * step * f64::from(u8::from(high - low < step)));
+    let start = if low >= 0.0 && low < 0.1 * high {
+        0.0
+    } else {
+        low - room
+    };
+    let (low, high) = (start, high + room);
+    let first = (low / step).ceil();
+    let ticks = (0..20)
+        .map(|i| (first + f64::from(i)) * step)
+        .take_while(|v| *v <= high)
+        .map(|v| (v, number(tidy(v, step))));
+    (low, high, ticks.collect())
+}
+
+/// Ends as logarithms; `clipped` says that there are values which no logarithm has.
+fn logarithmic(mut low: f64, mut high: f64, mut clipped: bool, decades: i32) -> Ends {
+    if low > high {
+        // Nothing but zeros.
+        (low, high) = (0.1, 1.0);
+    }
+    // What is drawn keeps clear of the smallest numbers that there are.
+    let high = high.clamp(1e-290, 1e300);
+    let floor = high.log10().ceil() - f64::from(decades);
+    clipped |= low.max(1e-300).log10() < floor;
+    let low = low.max(1e-290).log10().max(floor);
+    // A zero needs an edge of its own, below all else.
+    let high = high.log10();
+    let room = (0.03 * (high - low)).max(0.02);
+    let (low, high) = (if clipped { low.floor() } else { low - room }, high + room);
+    let (low, high) = if high - low < 0.3 {
+        (low - 0.15, high + 0.15)
+    } else {
+        (low, high)
+    };
+    let mut ticks = log_ticks(low, high);
+    if clipped {
+        ticks.retain(|(v, _)| v.log10() > low + 0.02 * (high - low));
+        ticks.insert(0, (10f64.powf(low), format!("≤1e{low:.0}")));
+    }
+    (low, high, ticks)
+}
+
 impl Ruler {
+    /// The ruler of these values; none where none is finite.
     pub fn new(axis: &Axis, values: impl Iterator<Item = f64>, from: f64, to: f64) -> Option<Self> {
-        let mut low = f64::INFINITY;
-        let mut high = f64::NEG_INFINITY;
-        let mut any = false;
-        let mut clipped = false;
         let log = matches!(axis.scale, Scale::Log { .. });
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut any, mut clipped) = (false, false);
         for v in values.filter(|v| v.is_finite()) {
             any = true;
             if log && v <= 0.0 {
@@ -54,84 +111,18 @@ impl Ruler {
         if !any {
             return None;
         }
-        Some(match &axis.scale {
-            Scale::Names(names) => {
-                let last = names.len().max(1) as f64 - 1.0;
-                let ticks = names
-                    .iter()
-                    .enumerate()
-                    .map(|(i, name)| (i as f64, name.clone()))
-                    .collect();
-                Self {
-                    low: -0.35,
-                    high: last + 0.35,
-                    log: false,
-                    from,
-                    to,
-                    ticks,
-                }
-            }
-            Scale::Linear => {
-                // Differences of what is drawn must not overflow.
-                let [low, high] = [low, high].map(|v| v.clamp(-1e300, 1e300));
-                let size = high.abs().max(low.abs());
-                let step = linear_step((high - low).max(size * 1e-6).max(1e-300) / 6.0);
-                // Ends lie a little beyond what is drawn, and on 0 where that is near.
-                let room = (0.02 * (high - low)).max(0.5 * step * f64::from(u8::from(high - low < step)));
-                let start = if low >= 0.0 && low < 0.1 * high {
-                    0.0
-                } else {
-                    low - room
-                };
-                let (low, high) = (start, high + room);
-                let first = (low / step).ceil();
-                let ticks = (0..20)
-                    .map(|i| (first + f64::from(i)) * step)
-                    .take_while(|v| *v <= high)
-                    .map(|v| (v, number(tidy(v, step))))
-                    .collect();
-                Self {
-                    low,
-                    high,
-                    log: false,
-                    from,
-                    to,
-                    ticks,
-                }
-            }
-            Scale::Log { decades } => {
-                if low > high {
-                    // Nothing but zeros.
-                    (low, high) = (0.1, 1.0);
-                }
-                // What is drawn keeps clear of the smallest numbers that there are.
-                let high = high.clamp(1e-290, 1e300);
-                let floor = high.log10().ceil() - f64::from(*decades);
-                clipped |= low.max(1e-300).log10() < floor;
-                let low = low.max(1e-290).log10().max(floor);
-                // A zero needs an edge of its own, below all else.
-                let high = high.log10();
-                let room = (0.03 * (high - low)).max(0.02);
-                let (low, high) = (if clipped { low.floor() } else { low - room }, high + room);
-                let (low, high) = if high - low < 0.3 {
-                    (low - 0.15, high + 0.15)
-                } else {
-                    (low, high)
-                };
-                let mut ticks = log_ticks(low, high);
-                if clipped {
-                    ticks.retain(|(v, _)| v.log10() > low + 0.02 * (high - low));
-                    ticks.insert(0, (10f64.powf(low), format!("≤1e{low:.0}")));
-                }
-                Self {
-                    low,
-                    high,
-                    log: true,
-                    from,
-                    to,
-                    ticks,
-                }
-            }
+        let (low, high, ticks) = match &axis.scale {
+            Scale::Names(names) => named(names),
+            Scale::Linear => linear(low, high),
+            Scale::Log { decades } => logarithmic(low, high, clipped, *decades),
+        };
+        Some(Self {
+            low,
+            high,
+            log,
+            from,
+            to,
+            ticks,
         })
     }
 

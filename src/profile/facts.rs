@@ -5,7 +5,7 @@ use crate::chart::histogram::{self, Panel};
 use crate::features::passes::{Class, Silent};
 use crate::features::{Extractor, FeatureSet};
 use crate::oit::neural::Skip;
-use crate::pixel::{ViewZ, absorbance, abuffer};
+use crate::pixel::{FragmentList, ViewZ, absorbance, abuffer};
 use serde::Serialize;
 
 /// Sides of a tile that an indirect dispatch would take or leave \[pixels\].
@@ -277,54 +277,7 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
     drop(out);
 
     let covered: Vec<usize> = (0..list.pixels()).filter(|&p| !list.range(p).is_empty()).collect();
-    let total = |p: usize| list.pixel(p).alpha.iter().map(|&a| absorbance(a)).sum::<f64>();
-    let range = scene.context.depth_range.or(list.depth_range());
-    let warp = range.and_then(|(a, b)| crate::pixel::LogWarp::new(ViewZ(a.into()), ViewZ(b.into())).ok());
-    let half = |p: usize| {
-        let (near, far) = list
-            .pixel(p)
-            .view_z
-            .iter()
-            .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
-        warp.map_or(0.0, |w| {
-            0.5 * (w.moment(ViewZ(far.into())).0 - w.moment(ViewZ(near.into())).0)
-        })
-    };
-    let several: Vec<usize> = covered.iter().copied().filter(|&p| list.range(p).len() > 1).collect();
-    let decades = |from: i32, to: i32| {
-        (2 * from..=2 * to)
-            .map(|e| 10f64.powf(0.5 * f64::from(e)))
-            .collect::<Vec<_>>()
-    };
-    let histograms = vec![
-        Histogram::of(
-            "fragments",
-            "covered pixels",
-            vec![
-                1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 13.0, 17.0, 25.0, 33.0, 49.0, 65.0, 97.0, 129.0, 193.0, 257.0, 1e6,
-            ],
-            covered.iter().map(|&p| list.range(p).len() as f64).collect(),
-        ),
-        Histogram::of(
-            "alpha",
-            "fragments",
-            (0..=20).map(|i| 0.05 * f64::from(i)).collect(),
-            list.alpha().iter().map(|&a| a.into()).collect(),
-        ),
-        Histogram::of(
-            "absorbance",
-            "covered pixels",
-            decades(-3, 3),
-            covered.iter().map(|&p| total(p)).collect(),
-        ),
-        Histogram::of(
-            "half range in moment depth",
-            "pixels of two and more",
-            decades(-6, 0),
-            several.iter().map(|&p| half(p)).collect(),
-        ),
-    ];
-
+    let histograms = histograms(scene, &covered);
     let (mut counts, mut behind_opaque) = ([0u64; 10], 0u64);
     let mut order = Vec::new();
     for &p in &covered {
@@ -352,36 +305,7 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             share: share(n),
         })
         .collect();
-    let tiles = list.size().map(|(width, height)| {
-        let mut tiles = Tiles {
-            tiles: 0,
-            empty: 0,
-            known: 0,
-            known_or_unseen: 0,
-        };
-        for (y, x) in (0..height)
-            .step_by(TILE as usize)
-            .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
-        {
-            let (mut fragments, mut evaluated, mut shown) = (0, 0, 0);
-            for p in (y..height.min(y + TILE))
-                .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
-            {
-                let of = &class[list.range(p)];
-                fragments += of.len();
-                evaluated += of
-                    .iter()
-                    .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
-                    .count();
-                shown += of.iter().filter(|c| matches!(c, Class::Network)).count();
-            }
-            tiles.tiles += 1;
-            tiles.empty += u64::from(fragments == 0);
-            tiles.known += u64::from(fragments > 0 && evaluated == 0);
-            tiles.known_or_unseen += u64::from(fragments > 0 && shown == 0);
-        }
-        tiles
-    });
+    let tiles = list.size().map(|size| tiles(list, size, &class));
     Ok(Facts {
         pixels: list.pixels() as u64,
         empty_pixels: 1.0 - covered.len() as f64 / list.pixels().max(1) as f64,
@@ -394,6 +318,90 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
         unseen: share(scene.transmittance.iter().filter(|&&t| t < UNSEEN).count() as u64),
         tiles,
     })
+}
+
+/// Fragments, alpha, absorbance and depth range, over the pixels that hold something.
+fn histograms(scene: &Scene<'_>, covered: &[usize]) -> Vec<Histogram> {
+    let list = scene.list;
+    let total = |p: usize| list.pixel(p).alpha.iter().map(|&a| absorbance(a)).sum::<f64>();
+    let range = scene.context.depth_range.or(list.depth_range());
+    let warp = range.and_then(|(a, b)| crate::pixel::LogWarp::new(ViewZ(a.into()), ViewZ(b.into())).ok());
+    let half = |p: usize| {
+        let (near, far) = list
+            .pixel(p)
+            .view_z
+            .iter()
+            .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
+        warp.map_or(0.0, |w| {
+            0.5 * (w.moment(ViewZ(far.into())).0 - w.moment(ViewZ(near.into())).0)
+        })
+    };
+    let several: Vec<usize> = covered.iter().copied().filter(|&p| list.range(p).len() > 1).collect();
+    let decades = |from: i32, to: i32| {
+        (2 * from..=2 * to)
+            .map(|e| 10f64.powf(0.5 * f64::from(e)))
+            .collect::<Vec<_>>()
+    };
+    vec![
+        Histogram::of(
+            "fragments",
+            "covered pixels",
+            vec![
+                1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 9.0, 13.0, 17.0, 25.0, 33.0, 49.0, 65.0, 97.0, 129.0, 193.0, 257.0, 1e6,
+            ],
+            covered.iter().map(|&p| list.range(p).len() as f64).collect(),
+        ),
+        Histogram::of(
+            "alpha",
+            "fragments",
+            (0..=20).map(|i| 0.05 * f64::from(i)).collect(),
+            list.alpha().iter().map(|&a| a.into()).collect(),
+        ),
+        Histogram::of(
+            "absorbance",
+            "covered pixels",
+            decades(-3, 3),
+            covered.iter().map(|&p| total(p)).collect(),
+        ),
+        Histogram::of(
+            "half range in moment depth",
+            "pixels of two and more",
+            decades(-6, 0),
+            several.iter().map(|&p| half(p)).collect(),
+        ),
+    ]
+}
+
+/// The tiles of an image by what they need; `class` is of each fragment.
+fn tiles(list: &FragmentList, (width, height): (u32, u32), class: &[Class]) -> Tiles {
+    let mut tiles = Tiles {
+        tiles: 0,
+        empty: 0,
+        known: 0,
+        known_or_unseen: 0,
+    };
+    for (y, x) in (0..height)
+        .step_by(TILE as usize)
+        .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
+    {
+        let (mut fragments, mut evaluated, mut shown) = (0, 0, 0);
+        for p in (y..height.min(y + TILE))
+            .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
+        {
+            let of = &class[list.range(p)];
+            fragments += of.len();
+            evaluated += of
+                .iter()
+                .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
+                .count();
+            shown += of.iter().filter(|c| matches!(c, Class::Network)).count();
+        }
+        tiles.tiles += 1;
+        tiles.empty += u64::from(fragments == 0);
+        tiles.known += u64::from(fragments > 0 && evaluated == 0);
+        tiles.known_or_unseen += u64::from(fragments > 0 && shown == 0);
+    }
+    tiles
 }
 
 #[cfg(test)]

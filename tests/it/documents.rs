@@ -261,6 +261,7 @@ documents! {
     docs_input: "docs/input.md",
     docs_integration: "docs/integration.md",
     docs_methods: "docs/methods.md",
+    docs_page: "docs/page.md",
     docs_performance: "docs/performance.md",
     docs_skip: "docs/skip.md",
     docs_stress: "docs/stress.md",
