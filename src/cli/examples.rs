@@ -10,7 +10,7 @@ examples! {
     ALL:
         "nmt run configs/paper.toml"
         "nmt export recommended --out shaders"
-        "nmt evaluate --fragments teapots --methods moment-power-4 weighted-average --model recommended --out target/evaluation";
+        "nmt evaluate --fragments teapots --methods moment-power-4 --model small --out target/ours";
     RUN:
         "nmt run configs/paper.toml"
         "nmt run configs/recommended.toml --out target/recommended --epochs 5";
@@ -31,7 +31,7 @@ examples! {
         "nmt predict recommended --fragments data/sample.npz --out target/T.npy"
         "nmt predict small --fragments data/sample.npz --out target/T-visible.npy --skip visible";
     EVALUATE:
-        "nmt evaluate --fragments teapots smoke --methods moment-power-4,moment-trig-4+own --model recommended --out target/methods"
+        "nmt evaluate --fragments hair smoke --methods moment-power-4 --model small --out target/eval"
         "nmt evaluate --fragments data/sample.npz --methods all --out target/sample-methods";
     SCENE:
         "nmt scene hair --size 640x480 --out target/hair.npz"
@@ -41,7 +41,7 @@ examples! {
         "nmt bench train --backend fused"
         "nmt bench infer --model recommended --batch 8192 --out target/bench/infer"
         "nmt bench generate --config configs/paper.toml configs/recommended.toml"
-        "nmt bench methods --fragments teapots --model recommended --device cpu --out target/bench/methods";
+        "nmt bench methods --fragments teapots --model small --device cpu --out target/bench/methods";
     STRESS:
         "nmt stress --model recommended --cases single pair thin"
         "nmt stress --model recommended --random 1000000 --out target/stress";

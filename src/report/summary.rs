@@ -199,7 +199,7 @@ mod tests {
         let words = sentence(&scene).unwrap();
         assert!(
             words.contains("neural:a has the least image MSE of 3 methods")
-                && words.contains("classic method is moment")
+                && words.contains("classic method is worse with 2.00e-5")
         );
     }
 }
