@@ -724,7 +724,7 @@ mod tests {
                         &text[end..]
                     )
                 };
-                let halved = text.replace("1.00001 * min(share1", "0.25 * min(share1");
+                let halved = text.replace("min(share1, share2) * 1.00001", "min(share1, share2) * 0.25");
                 assert_ne!(halved, text);
                 let modules = [
                     text.clone(),

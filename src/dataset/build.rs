@@ -17,6 +17,7 @@ pub const MAX_PAIRS: u64 = 1 << 30;
 
 /// How large a dataset is and what its columns are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct DatasetConfig {
     /// The feature set of its columns.
@@ -46,6 +47,7 @@ pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 
 /// How much a row counts in the loss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Weighting {
     /// All alike.
@@ -143,22 +145,13 @@ impl DatasetConfig {
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
     let Extracted { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
-    let asked = |values: &mut dyn Iterator<Item = f32>| {
-        known
-            .iter()
-            .zip(values)
-            .filter(|(k, _)| k.is_nan())
-            .map(|(_, v)| v)
-            .collect()
-    };
-    let targets = asked(&mut targets.into_iter().map(|t| t as f32));
-    let all_pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
-    let pixels = known
+    let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
+    let unknown = known
         .iter()
-        .zip(all_pixels)
-        .filter(|(k, _)| k.is_nan())
-        .map(|(_, p)| p)
-        .collect();
+        .zip(targets)
+        .zip(pixels)
+        .filter(|((known, _), _)| known.is_none());
+    let (targets, pixels) = unknown.map(|((_, target), pixel)| (target as f32, pixel)).unzip();
     Ok(Rows {
         feature_set: extractor.set(),
         features,

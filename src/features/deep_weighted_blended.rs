@@ -19,8 +19,8 @@ pub const DESCRIPTION: [&str; 4] = [
     "The answer is what front-to-back blending has left when it reaches the fragment; use it as the weight of weighted blended transparency.",
 ];
 
-/// Bits of a pixel through both passes: sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and what is left
-/// of the background in R16F.
+/// Bits of a pixel through both passes: sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and
+/// what is left of the background in R16F.
 pub const BITS_PER_PIXEL: u32 = 112;
 
 /// DWB22's feature set.
@@ -64,8 +64,8 @@ pub const SPEC: FeatureSpec = FeatureSpec {
 };
 
 fn write_features(source: &Source) {
-    let about = "The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, number of \
-                 fragments) and the least and greatest view depth of the scene.";
+    let about = "The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, \
+                 number of fragments) and the least and greatest view depth of the scene.";
     let names = ["view_z", "v_min", "v_max", "alpha_sum", "n"];
     source.begin_function(
         "nmt_features",
@@ -81,9 +81,9 @@ fn write_features(source: &Source) {
 
 /// Linear depth relative to a range: d = (v − v0)/(v1 − v0), clamped to [0, 1]; 0 where v0 = v1.
 ///
-/// DWB22's shader takes the view depth itself, in scene units, which ties a network to the one scene that it was trained on. Here it is measured
-/// from the least to the greatest view depth of the fragment list (or of `--depth-range`), not between the camera's planes: a scene fills little
-/// of the room between those.
+/// DWB22's shader takes the view depth itself, in scene units, which ties a network to the one scene that it was
+/// trained on. Here it is measured from the least to the greatest view depth of the fragment list (or of
+/// `--depth-range`), not between the camera's planes: a scene fills little of the room between those.
 ///
 /// # Source
 /// DWB22 Sec. 3.3.2 and App. B.2 (`LinearizeDepth`); the normalisation is ours.
@@ -115,8 +115,8 @@ impl LinearRange {
     }
 }
 
-/// Features of every fragment of a pixel: its relative linear depth, the pixel's sum of alpha, and its number of fragments; in f64, rounded to
-/// f32 once.
+/// Features of every fragment of a pixel: its relative linear depth, the pixel's sum of alpha, and its number of
+/// fragments; in f64, rounded to f32 once.
 ///
 /// # Source
 /// DWB22 Sec. 3.3.2.

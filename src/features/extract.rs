@@ -1,5 +1,5 @@
-//! Features of fragments, pixel by pixel: what [`FeatureSpec`](super::FeatureSpec) names, with what must be known of the camera and
-//! the scene.
+//! Features of fragments, pixel by pixel: what [`FeatureSpec`](super::FeatureSpec) names, with what must be known of
+//! the camera and the scene.
 
 use super::core::CoreSet;
 use super::core::code::Codes;
@@ -69,12 +69,14 @@ pub enum MomentFrame {
     /// The extremes of the scene: one pass. A pixel much thinner than the scene loses moments to rounding.
     #[default]
     Scene,
-    /// The pixel's own nearest and farthest fragment, which a prepass has found: whatever the pixel's range, rounding is that of the sums alone.
+    /// The pixel's own nearest and farthest fragment, which a prepass has found: whatever the pixel's range, rounding
+    /// is that of the sums alone.
     Pixel,
 }
 
 /// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum SumPrecision {
     /// RGBA32F targets: every sum is rounded to f32.
@@ -82,7 +84,8 @@ pub enum SumPrecision {
     F32,
     /// RGBA16F targets: every sum is rounded to f16.
     F16,
-    /// RGBA16 targets: moments, normalised by an f32 b_0, go through the transform that fills their range and are rounded to 16 bits, once a pixel.
+    /// RGBA16 targets: moments, normalised by an f32 b_0, go through the transform that fills their range and are
+    /// rounded to 16 bits, once a pixel.
     Unorm16,
 }
 
@@ -175,7 +178,8 @@ impl Sampled {
         }
     }
 
-    /// Makes rows of at most `most` of n fragments, chosen at random among those of which `row` makes one; it appends the features, or says that there are none.
+    /// Makes rows of at most `most` of n fragments, chosen at random among those of which `row` makes one; it appends
+    /// the features, or says that there are none.
     pub(super) fn choose(&mut self, n: usize, most: usize, rng: &mut Stream, row: impl Fn(usize, &mut Self) -> bool) {
         self.order.clear();
         self.order.extend(0..n as u32);
@@ -249,7 +253,8 @@ fn transform_lanes<S: Simd>(
 
 /// Appends the transmittance of what lies in front of each of these view depths.
 ///
-/// Absorbance is added up in sixteen partial sums, and those from the first to the last: in the same order at every SIMD level.
+/// Absorbance is added up in sixteen partial sums, and those from the first to the last: in the same order at every
+/// SIMD level.
 #[inline(always)]
 fn transmittances<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], before: &[f32], out: &mut Vec<f32>) {
     let zero = f32x16::splat(simd, 0.0);
@@ -276,9 +281,10 @@ fn transmittances<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], befo
 /// What a feature set says of some fragments.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extracted {
-    /// Transmittance of every fragment where it is known without a network, NaN where the network is evaluated; `[F']`.
-    pub known: Vec<f32>,
-    /// Features of the fragments that the network is evaluated for, in the order of the fragments; `[Q, W]`, row by row.
+    /// Transmittance of every fragment that needs no network; `[F']`.
+    pub known: Vec<Option<f32>>,
+    /// Features of the fragments that the network is evaluated for, in the order of the fragments; `[Q, W]`, row by
+    /// row.
     pub features: Vec<f32>,
 }
 
@@ -286,8 +292,8 @@ impl Extractor {
     /// An extractor for pixels that a camera with these planes saw, of a scene whose view depths span this range.
     ///
     /// # Errors
-    /// [`DepthError::NoPlanes`] where the set needs window depth and no planes are given; [`DepthError::NoRange`] where it needs depth relative to
-    /// the scene and no range is given; [`DepthError::BadRange`] where that range is none.
+    /// [`DepthError::NoPlanes`] where the set needs window depth and no planes are given; [`DepthError::NoRange`] where
+    /// it needs depth relative to the scene and no range is given; [`DepthError::BadRange`] where that range is none.
     pub fn new(
         set: FeatureSet,
         planes: Option<CameraPlanes>,
@@ -329,7 +335,8 @@ impl Extractor {
         Self::new(set, planes.or(list.planes()), Some(depth_range))
     }
 
-    /// The same with moments in another precision; `paper`'s and `deep-weighted-blended`'s sums stay in f64, as they were published.
+    /// The same with moments in another precision; `paper`'s and `deep-weighted-blended`'s sums stay in f64, as they
+    /// were published.
     pub fn with_precision(self, precision: SumPrecision) -> Self {
         Self { precision, ..self }
     }
@@ -372,10 +379,12 @@ impl Extractor {
         self.set
     }
 
-    /// Features of every fragment of a pixel, in the order of its fragments, and the transmittance where the set knows it.
+    /// Features of every fragment of a pixel, in the order of its fragments, and the transmittance where the set knows
+    /// it.
     ///
     /// # Shapes
-    /// `out: [n, W + 1]`, row by row: the features, then the known transmittance or NaN; features beside a known transmittance are 0.
+    /// `out: [n, W + 1]`, row by row: the features, then the known transmittance or NaN; features beside a known
+    /// transmittance are 0.
     ///
     /// # Errors
     /// [`DepthError::OutsidePlanes`] where a fragment lies outside the camera's planes.
@@ -386,10 +395,11 @@ impl Extractor {
         (self.set.spec().pixel)(self, pixel, out)
     }
 
-    /// Appends rows of at most `most` fragments of a pixel that the network is evaluated for, chosen at random: features, and the exact transmittance.
+    /// Appends rows of at most `most` fragments of a pixel that the network is evaluated for, chosen at random:
+    /// features, and the exact transmittance.
     ///
-    /// The arithmetic is f32 throughout, multiplications and additions apart, so that rows are the same on every machine; they differ from those of
-    /// [`Self::pixel`] by rounding (`sampled_rows_are_those_of_whole_pixels`).
+    /// The arithmetic is f32 throughout, multiplications and additions apart, so that rows are the same on every
+    /// machine; they differ from those of [`Self::pixel`] by rounding (`sampled_rows_are_those_of_whole_pixels`).
     ///
     /// # Panics
     /// If the set is not trained on transmittances.
@@ -407,11 +417,12 @@ impl Extractor {
         let fragments = (list.offsets()[range.end] - list.offsets()[range.start]) as usize;
         let mut rows = vec![0.0; fragments * (width + 1)];
         list.par_pixels(range, &mut rows, width + 1, |_, pixel, out| self.pixel(pixel, out))?;
-        let known: Vec<f32> = rows.chunks_exact(width + 1).map(|row| row[width]).collect();
-        // Rows of the asked close ranks in place.
+        let of_row = |row: &[f32]| Some(row[width]).filter(|t| !t.is_nan());
+        let known: Vec<Option<f32>> = rows.chunks_exact(width + 1).map(of_row).collect();
+        // Rows that the network answers close ranks in place.
         let mut kept = 0;
         for (i, known) in known.iter().enumerate() {
-            if known.is_nan() {
+            if known.is_none() {
                 rows.copy_within(i * (width + 1)..i * (width + 1) + width, kept);
                 kept += width;
             }

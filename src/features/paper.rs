@@ -98,8 +98,8 @@ fn write_features(source: &Source) {
         term
     });
     source.return_array(&b);
-    let about = "Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest \
-                 window depth, number of fragments, total absorbance b0 and moments b1..b4.";
+    let about = "Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and \
+                 greatest window depth, number of fragments, total absorbance b0 and moments b1..b4.";
     let names = SPEC.shader.arguments;
     let parameters: Vec<_> = names
         .iter()
@@ -126,7 +126,8 @@ fn sample(e: &Extractor, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: 
 
 /// Relative depth of a fragment in its pixel: d = (e^w − e^wmin)/(e^wmax − e^wmin); 0 where wmin = wmax.
 ///
-/// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels suffer.
+/// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels
+/// suffer.
 ///
 /// # Source
 /// NMT24 Sec. 3.1, first feature, on window depth.
@@ -141,8 +142,8 @@ pub fn relative_depth(w: f64, wmin: f64, wmax: f64) -> f64 {
     }
 }
 
-/// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w − 1, taken in f64
-/// and rounded to f32 once.
+/// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w −
+/// 1, taken in f64 and rounded to f32 once.
 ///
 /// # Source
 /// NMT24 Sec. 3.1 and Eq. 5.
@@ -181,7 +182,8 @@ pub fn extract(pixel: Pixel<'_>, planes: CameraPlanes, out: &mut [f32]) -> Resul
 /// What [`extract`] makes of a pixel, in f32 lanes: window depths become relative depths, and b0..b4 are returned.
 ///
 /// # Accuracy
-/// 1e-6 of b0 in the moments and 2e-6 over the pixel's range of window depth in the depths; `sampled_rows_are_those_of_whole_pixels`.
+/// 1e-6 of b0 in the moments and 2e-6 over the pixel's range of window depth in the depths;
+/// `sampled_rows_are_those_of_whole_pixels`.
 pub fn describe_lanes(n: usize, depth: &mut [Lanes], absorbance: &[Lanes]) -> [f32; 5] {
     let mut range = [f32::INFINITY, f32::NEG_INFINITY];
     for i in 0..n {
@@ -305,7 +307,8 @@ mod tests {
             prop_assert!((relative_depth(w, lo, hi) - printed).abs() < 1e-13);
         }
 
-        /// In the thinnest pixels d stays within [0, 1] and tends to the linear (w − wmin)/(wmax − wmin). Tolerance: the range itself.
+        /// In the thinnest pixels d stays within [0, 1] and tends to the linear (w − wmin)/(wmax − wmin). Tolerance:
+        /// the range itself.
         #[test]
         fn relative_depth_of_thin_pixels_is_linear(lo in 0.0f64..0.9, exponent in 2.0f64..12.0, u in 0.0f64..=1.0) {
             let range = 10f64.powf(-exponent);

@@ -6,15 +6,16 @@
 //! 2. The table at the top of `features/mod.rs` gets one line: the name of the variant, and that constant.
 //!
 //! Nothing else knows sets by name: the dataset, the trainers, the exports, the checks and the passes ask
-//! [`FeatureSet::spec`](super::FeatureSet::spec). A set whose formulas are written over [`Real`](crate::numeric::Real) gives its
-//! shader functions by running them on a [`Source`].
+//! [`FeatureSet::spec`](super::FeatureSet::spec). A set whose formulas are written over [`Real`](crate::numeric::Real)
+//! gives its shader functions by running them on a [`Source`].
 //!
 //! # Learned sums
 //!
-//! What pass 1 adds up is fixed by [`FeatureSpec::pixel`] and [`FeatureSpec::sample`], which make features of a pixel at once, so
-//! that a trainer never meets the fragments. Training that reaches into pass 1 would hook in there: [`Sums`] would name a basis,
-//! functions of depth and absorbance with parameters, `sample` would hand rows of fragments to the trainer beside their features,
-//! and the trainer would carry the gradient of the features on to the parameters of the basis.
+//! What pass 1 adds up is fixed by [`FeatureSpec::pixel`] and [`FeatureSpec::sample`], which make features of a pixel
+//! at once, so that a trainer never meets the fragments. Training that reaches into pass 1 would hook in there:
+//! [`Sums`] would name a basis, functions of depth and absorbance with parameters, `sample` would hand rows of
+//! fragments to the trainer beside their features, and the trainer would carry the gradient of the features on to the
+//! parameters of the basis.
 
 use super::core::CoreSet;
 use super::{Answer, Extractor, MomentDepthKind, OutputMeaning, Sampled, Target};
@@ -99,8 +100,8 @@ pub struct Tolerances {
     pub half: f64,
     /// Greatest mean error with hidden layers in f16, against f64.
     pub half_mean: f64,
-    /// Greatest feature that is usual, as a power of two: a network whose hidden layers could overflow f16 on it has no export
-    /// in f16.
+    /// Greatest feature that is usual, as a power of two: a network whose hidden layers could overflow f16 on it has no
+    /// export in f16.
     pub usual_feature_log2: i32,
 }
 

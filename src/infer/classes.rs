@@ -11,7 +11,8 @@ pub enum Skip {
     /// Those whose answer is used: the same transmittances to the bit.
     #[default]
     Exact,
-    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see [`visible`](crate::features::visible).
+    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see
+    /// [`visible`](crate::features::visible).
     Visible,
 }
 
@@ -35,7 +36,8 @@ impl Skip {
     }
 }
 
-/// Which fragments the network is spared. Those that are known stay known: a switch that is off only runs the network for them too.
+/// Which fragments the network is spared. Those that are known stay known: a switch that is off only runs the network
+/// for them too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Switches {
     /// Nearest, farthest, and those with nothing else in their pixel.

@@ -1,4 +1,5 @@
-//! Answers of a network for whole fragment lists, fast: both passes, classes of fragments, and what the network is spared.
+//! Answers of a network for whole fragment lists, fast: both passes, classes of fragments, and what the network is
+//! spared.
 
 pub mod classes;
 pub mod core;
@@ -29,10 +30,11 @@ pub struct Answered {
 /// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
 const MIN_OPACITY: f64 = 1.0 / 512.0;
 
-/// A network's answers for every fragment of a list, with what decided each, and how long both passes took. `progress` is told how
-/// many fragments are done.
+/// A network's answers for every fragment of a list, with what decided each, and how long both passes took. `progress`
+/// is told how many fragments are done.
 ///
-/// Recentred features are made in f32, sixteen at once ([`Passes`]); the others in f64, rounded to f32. The forward pass is f32.
+/// Recentred features are made in f32, sixteen at once ([`Passes`]); the others in f64, rounded to f32. The forward
+/// pass is f32.
 ///
 /// # Errors
 /// [`DepthError`] where a fragment lies outside of the camera's planes.
@@ -87,7 +89,8 @@ pub fn answers(
     Ok(answered)
 }
 
-/// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for pixels that hardly show.
+/// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for
+/// pixels that hardly show.
 fn pixel_by_pixel(
     mlp: &Mlp,
     extractor: &Extractor,
@@ -113,15 +116,15 @@ fn pixel_by_pixel(
         };
         for i in own {
             (out[i], classes[i]) = match known[i] {
-                t if !t.is_nan() => (t, Class::Known),
-                _ if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
-                _ => (f32::NAN, Class::Network),
+                Some(t) => (t, Class::Known),
+                None if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
+                None => (f32::NAN, Class::Network),
             };
         }
     }
     let (mut kept, mut row) = (0, 0);
     for (i, class) in classes.iter().enumerate() {
-        if known[i].is_nan() {
+        if known[i].is_none() {
             if *class == Class::Network {
                 features.copy_within(row * width..(row + 1) * width, kept * width);
                 kept += 1;

@@ -1,10 +1,10 @@
-//! Both passes over many pixels, sixteen fragments at once: what [`Extractor::pixel`] says of one, made fast, with a network in the
-//! middle.
+//! Both passes over many pixels, sixteen fragments at once: what [`Extractor::pixel`] says of one, made fast, with a
+//! network in the middle.
 //!
-//! Pass 2 first sorts fragments into classes with little arithmetic. What is known leaves its optical depth; what a closed form or
-//! the network must answer waits in a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So
-//! every fragment's answer depends on that fragment and the sums of its pixel alone, not on its company, and to leave out the
-//! network where its answer is not used changes no bit of the rest.
+//! Pass 2 first sorts fragments into classes with little arithmetic. What is known leaves its optical depth; what a
+//! closed form or the network must answer waits in a queue until sixteen wait, of whatever pixels, and goes through its
+//! arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not on its
+//! company, and to leave out the network where its answer is not used changes no bit of the rest.
 
 use super::classes::{Class, Switches, Tally};
 use super::queue::{Queue, Summed};
@@ -31,7 +31,7 @@ struct Workspace<const K: usize> {
     /// Fragments that a closed form answers.
     short: Queue<K>,
     /// Fragments that the network will answer, and those that may be hidden.
-    evaluated: [Queue<K>; 2],
+    waiting: [Queue<K>; 2],
     columns: Vec<Column>,
     /// The fragment of each row, or [`DROPPED`].
     who: Vec<u32>,
@@ -63,7 +63,7 @@ impl<const K: usize> Workspace<K> {
             level: Level::new(),
             switches,
             short: Queue::new(),
-            evaluated: [Queue::new(), Queue::new()],
+            waiting: [Queue::new(), Queue::new()],
             columns: vec![[0.0; ROWS]; columns],
             who: Vec::with_capacity(ROWS),
             hiding: Vec::new(),
@@ -95,9 +95,9 @@ impl<const K: usize> Workspace<K> {
         }
     }
 
-    /// The network, unless the fragment is hidden; only deep ones may be.
+    /// Puts a fragment into the queue of the network, or of those that may be hidden if it lies deep enough.
     #[inline(always)]
-    fn ask(
+    fn enqueue(
         &mut self,
         task: &mut Task<'_, K>,
         network: &mut impl FnMut(&[Column], &mut [f32]),
@@ -106,8 +106,8 @@ impl<const K: usize> Workspace<K> {
         pixel: usize,
         deep: bool,
     ) {
-        // No branch, which nobody could predict.
-        let queue = &mut self.evaluated[usize::from(deep)];
+        // Branch-free: this would mispredict.
+        let queue = &mut self.waiting[usize::from(deep)];
         queue.push(
             task.view_z[fragment],
             task.z[fragment],
@@ -121,7 +121,7 @@ impl<const K: usize> Workspace<K> {
         }
     }
 
-    /// The network, whose answer is not used.
+    /// Runs the network for a fragment whose answer is known, and drops what it says.
     fn run_for_nothing(
         &mut self,
         task: &mut Task<'_, K>,
@@ -130,7 +130,7 @@ impl<const K: usize> Workspace<K> {
         fragment: usize,
         pixel: usize,
     ) {
-        self.evaluated[0].push(
+        self.waiting[0].push(
             task.view_z[fragment],
             task.z[fragment],
             task.absorbance[fragment],
@@ -138,15 +138,15 @@ impl<const K: usize> Workspace<K> {
             DROPPED,
             pixel,
         );
-        if self.evaluated[0].is_full() {
+        if self.waiting[0].is_full() {
             self.flush(false, task, network);
         }
     }
 
     /// Features of what waits and, of the deep ones, is not hidden.
     fn flush(&mut self, deep: bool, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
-        for (at, len) in self.evaluated[usize::from(deep)].take() {
-            let queue = &self.evaluated[usize::from(deep)];
+        for (at, len) in self.waiting[usize::from(deep)].take() {
+            let queue = &self.waiting[usize::from(deep)];
             let (columns, row) = (&mut self.columns, self.who.len());
             let mut hidden = 0;
             dispatch!(self.level, simd => hidden = queue.load(simd, at / LANES).fill(deep, columns, row));
@@ -240,7 +240,7 @@ impl<const K: usize> Workspace<K> {
                 } else if faint {
                     task.faint(&of, fragment);
                 } else {
-                    self.ask(task, network, &of, fragment, at, task.z[fragment] >= deep_from);
+                    self.enqueue(task, network, &of, fragment, at, task.z[fragment] >= deep_from);
                 }
             }
         }
@@ -250,7 +250,8 @@ impl<const K: usize> Workspace<K> {
         self.recheck_hidden(task, network);
     }
 
-    /// Asks the network about hidden fragments after all where the weights of their pixel sum to too little for the bound to hold.
+    /// Evaluates the network for hidden fragments after all where the weights of their pixel sum to too little for the
+    /// bound to hold.
     fn recheck_hidden(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         let mut hiding = std::mem::take(&mut self.hiding);
         for &pixel in &hiding {
@@ -265,7 +266,7 @@ impl<const K: usize> Workspace<K> {
                 for fragment in own {
                     if task.class[fragment] == Class::Hidden {
                         task.class[fragment] = Class::Network;
-                        self.evaluated[0].push(
+                        self.waiting[0].push(
                             task.view_z[fragment],
                             task.z[fragment],
                             task.absorbance[fragment],
@@ -273,7 +274,7 @@ impl<const K: usize> Workspace<K> {
                             fragment as u32,
                             pixel as usize,
                         );
-                        if self.evaluated[0].is_full() {
+                        if self.waiting[0].is_full() {
                             self.flush(false, task, network);
                         }
                     }
@@ -418,11 +419,12 @@ impl Passes {
         })
     }
 
-    /// Transmittances of every fragment of pixels `range`, in the order of the list, and what decided each, on all cores. `network` makes
-    /// the function that a thread asks: it answers the first `out.len()` rows of columns.
+    /// Transmittances of every fragment of pixels `range`, in the order of the list, and what decided each, on all
+    /// cores. `network` makes the function that a thread asks: it answers the first `out.len()` rows of columns.
     ///
     /// # Accuracy
-    /// What is known and the features differ from [`Extractor::pixel`]'s by rounding in f32; `passes_follow_the_extractor`.
+    /// What is known and the features differ from [`Extractor::pixel`]'s by rounding in f32;
+    /// `passes_follow_the_extractor`.
     ///
     /// # Shapes
     /// `out`, `class`: one a fragment of the range.
@@ -532,7 +534,8 @@ pub(crate) mod tests {
     use rand::RngExt;
     use std::sync::Mutex;
 
-    /// Pixels of every kind: few and many fragments, faint and opaque ones, bunches, ties, alpha 0 and 1; colours at the ends of their range.
+    /// Pixels of every kind: few and many fragments, faint and opaque ones, bunches, ties, alpha 0 and 1; colours at
+    /// the ends of their range.
     pub(crate) fn pixels(rng: &mut Stream, pixels: usize) -> FragmentList {
         let (mut offsets, mut view_z, mut alpha, mut color) = (vec![0], vec![], vec![], vec![]);
         for _ in 0..pixels {
@@ -603,8 +606,9 @@ pub(crate) mod tests {
         hidden: true,
     };
 
-    /// Against [`Extractor::pixel`]: the network is evaluated for the same fragments; what is known to 1e-5, in pixels of four that are not thin to 1e-3, and the features of pixels that are
-    /// not thin to f32 rounding. Controls: the values one fragment on.
+    /// Against [`Extractor::pixel`]: the network is evaluated for the same fragments; what is known to 1e-5, in pixels
+    /// of four that are not thin to 1e-3, and the features of pixels that are not thin to f32 rounding. Controls: the
+    /// values one fragment on.
     #[test]
     fn passes_follow_the_extractor() {
         for set in [FeatureSet::Recentred, FeatureSet::Recentred6, FeatureSet::Recentred8] {
@@ -633,7 +637,8 @@ pub(crate) mod tests {
                 for (i, row) in range.clone().zip(whole.chunks_exact(width + 1)) {
                     assert_eq!(row[width].is_nan(), class[i] == Class::Network);
                     if class[i] != Class::Network {
-                        // Moments of thin pixels are what rounding makes of them; in pixels of three only the mean counts.
+                        // Moments of thin pixels are what rounding makes of them; in pixels of three only the mean
+                        // counts.
                         let bar = match class[i] {
                             Class::Three => 0.03,
                             Class::Four if thin => 1.0,
@@ -673,7 +678,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The same to the bit in any company, on any number of threads, and with switches off but for what they run in vain.
+    /// The same to the bit in any company, on any number of threads, and with switches off but for what they run in
+    /// vain.
     #[test]
     fn company_threads_and_switches_change_no_bit() {
         let list = pixels(&mut stream(2, 94, 0), 3000);
@@ -702,8 +708,9 @@ pub(crate) mod tests {
         }
     }
 
-    /// What every pixel's hidden fragments weigh in the exact image, in f64: at most 1/1024 in all; and the lanes decide as the f64 rule would, never more boldly than its truth allows.
-    /// Control: the fragments that are not hidden weigh more.
+    /// What every pixel's hidden fragments weigh in the exact image, in f64: at most 1/1024 in all; and the lanes
+    /// decide as the f64 rule would, never more boldly than its truth allows. Control: the fragments that are not
+    /// hidden weigh more.
     #[test]
     fn hidden_fragments_weigh_next_to_nothing() {
         for set in [FeatureSet::Recentred, FeatureSet::Recentred8] {

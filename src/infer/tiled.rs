@@ -1,4 +1,5 @@
-//! The forward pass on many rows: tiles of 256 rows in explicit SIMD, with the sizes of shipped networks known at compile time.
+//! The forward pass on many rows: tiles of 256 rows in explicit SIMD, with the sizes of shipped networks known at
+//! compile time.
 
 use super::passes::Column;
 use crate::features::Answer;
@@ -23,7 +24,8 @@ macro_rules! with_sizes {
 }
 
 impl Mlp {
-    /// Answers to many rows on all cores in explicit SIMD with fused multiply-adds: what renderers of fragment lists want.
+    /// Answers to many rows on all cores in explicit SIMD with fused multiply-adds: what renderers of fragment lists
+    /// want.
     ///
     /// Each row's answer depends on that row and on the SIMD level alone.
     ///
@@ -31,7 +33,8 @@ impl Mlp {
     /// `rows: [N, W]`, row by row; the result is `[N]`.
     ///
     /// # Accuracy
-    /// As far from [`Self::forward`] in f64 as that is in f32, within a factor of three; `batched_answers_follow_the_reference` holds it there.
+    /// As far from [`Self::forward`] in f64 as that is in f32, within a factor of three;
+    /// `batched_answers_follow_the_reference` holds it there.
     ///
     /// # Panics
     /// If the length of `rows` is not a multiple of W.
@@ -121,8 +124,8 @@ impl Batched {
     }
 }
 
-/// A network made ready to answer tiles of rows that stand column by column, without turning them around: [`Mlp::predict`] for those
-/// who make rows in lanes.
+/// A network made ready to answer tiles of rows that stand column by column, without turning them around:
+/// [`Mlp::predict`] for those who make rows in lanes.
 pub struct Tiled {
     network: Batched,
     level: Level,
@@ -183,7 +186,8 @@ mod tests {
     use crate::numeric::rng::stream;
     use rand::RngExt;
 
-    /// Answers in SIMD are as close to f64 as three times our own f32, whatever the sizes and the number of rows, and the same for any company of rows.
+    /// Answers in SIMD are as close to f64 as three times our own f32, whatever the sizes and the number of rows, and
+    /// the same for any company of rows.
     #[test]
     fn batched_answers_follow_the_reference() {
         for (hidden, seed) in [(&[32, 16][..], 1), (&[5], 2), (&[], 3), (&[3, 9, 4], 4), (&[16, 8], 5)] {

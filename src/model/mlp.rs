@@ -172,7 +172,8 @@ impl Mlp {
     /// A network from its layers.
     ///
     /// # Errors
-    /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature set to one output, or a number is not finite.
+    /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature
+    /// set to one output, or a number is not finite.
     pub fn new(
         name: impl Into<String>,
         feature_set: FeatureSet,
@@ -239,8 +240,9 @@ impl Mlp {
 
     /// The network's answer to one row of features: the reference that every export is held to.
     ///
-    /// Each unit starts from its bias and adds weight × input in the order of the inputs, multiplication and addition rounded apart; ReLU
-    /// between layers; then [`Scalar::sigmoid`], and what the feature set makes of it ([`FeatureSet::answer`]).
+    /// Each unit starts from its bias and adds weight × input in the order of the inputs, multiplication and addition
+    /// rounded apart; ReLU between layers; then [`Scalar::sigmoid`], and what the feature set makes of it
+    /// ([`FeatureSet::answer`]).
     ///
     /// # Panics
     /// If the row is not as wide as the feature set.
@@ -280,7 +282,8 @@ impl Mlp {
         out
     }
 
-    /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still agree to the bit.
+    /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still
+    /// agree to the bit.
     fn forward_block<R: Scalar, const L: usize>(&self, rows: &[f32], out: &mut [R]) {
         let width = self.layers[0].inputs;
         let mut x: Vec<[R; L]> = (0..width)

@@ -5,7 +5,7 @@ use super::{Accumulated, Context, Method, MethodError};
 use crate::features::{Extractor, MomentFrame, SumPrecision};
 use crate::infer::{self, Switches};
 pub use crate::infer::{Answered, Skip};
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, shipped};
 use crate::pixel::FragmentList;
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let path = arguments
         .argument
         .ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
-    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model {
+    let mlp = shipped::open(Path::new(path)).map_err(|source| ParseError::Model {
         name: arguments.name.to_owned(),
         source,
     })?;
@@ -63,8 +63,8 @@ impl Neural {
         Self { precision, ..self }
     }
 
-    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
-    /// and farthest fragment.
+    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands
+    /// for a prepass that has found each pixel's nearest and farthest fragment.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
         let frame = if self.mlp.feature_set().spec().sums.has_precisions {
             frame
@@ -96,7 +96,8 @@ impl Neural {
     /// `progress` is told how many fragments are done.
     ///
     /// # Errors
-    /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth range is none.
+    /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth
+    /// range is none.
     pub fn transmittance(
         &self,
         list: &FragmentList,
@@ -173,12 +174,14 @@ mod tests {
     use super::*;
     use crate::features::FeatureSet;
     use crate::infer::{Class, Passes};
+    use crate::model::file;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
     use crate::oit;
     use crate::pixel::CameraPlanes;
 
-    /// Two fragments need no network, whatever it says; of five the ends do not, and all answers lie between the total transmittance and 1.
+    /// Two fragments need no network, whatever it says; of five the ends do not, and all answers lie between the total
+    /// transmittance and 1.
     #[test]
     fn what_is_known_is_not_asked() {
         let view_z = vec![2.0, 1.0, 4.0, 1.5, 2.5, 3.0, 7.0];
@@ -272,8 +275,9 @@ mod tests {
         }
     }
 
-    /// Adversarial pixels under networks that say anything: no channel is more than half a display step from the image in which hidden fragments are answered
-    /// exactly and all others by the network. Controls: answering them with 1 is; and some pixel is asked after all.
+    /// Adversarial pixels under networks that say anything: no channel is more than half a display step from the image
+    /// in which hidden fragments are answered exactly and all others by the network. Controls: answering them with 1
+    /// is; and some pixel is asked after all.
     #[test]
     fn what_is_skipped_cannot_be_seen() {
         let list = crate::infer::passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
@@ -344,8 +348,8 @@ mod tests {
         assert!(control > 0.05 && again > 0, "{control} {again}");
     }
 
-    /// The shipped network on the built-in scenes: what `visible` changes, against its own answers. Tolerances: 1/512 in a channel, 0.0005 of FLIP.
-    /// Control: the image of another network is farther.
+    /// The shipped network on the built-in scenes: what `visible` changes, against its own answers. Tolerances: 1/512
+    /// in a channel, 0.0005 of FLIP. Control: the image of another network is farther.
     #[test]
     fn built_in_scenes_look_the_same() {
         let load = |text: &str| file::from_json(text.as_bytes(), Path::new("m.json")).unwrap();
@@ -384,9 +388,10 @@ mod tests {
         }
     }
 
-    /// What moments of half resolution would do: b_1..b_4 of 2 x 2 pixels added up and scaled to each pixel's own b_0, beside its own n and ends, which is the best that may be hoped
-    /// for. The image MSE of the shipped network grows at least twofold on four of the six built-in scenes, so no renderer of ours does it. Control: moments of the pixel itself, put together in the same
-    /// way, give the usual image MSE to 5 %.
+    /// What moments of half resolution would do: b_1..b_4 of 2 x 2 pixels added up and scaled to each pixel's own b_0,
+    /// beside its own n and ends, which is the best that may be hoped for. The image MSE of the shipped network grows
+    /// at least twofold on four of the six built-in scenes, so no renderer of ours does it. Control: moments of the
+    /// pixel itself, put together in the same way, give the usual image MSE to 5 %.
     #[test]
     fn moments_of_half_resolution_lose_the_edges() {
         use crate::features::recentred::{FragmentTerms, Pass2Input, PixelSums, absorbance, moment_depth};

@@ -153,7 +153,8 @@ fn own_warp(view_z: &[f32]) -> LogWarp {
     LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into())).expect("depths of a fragment are positive and finite")
 }
 
-/// [`PixelSums`] of n fragments and the depths of their ends: the same numbers to the bit as [`PixelSums::add`] gives, added up in the same order.
+/// [`PixelSums`] of n fragments and the depths of their ends: the same numbers to the bit as [`PixelSums::add`] gives,
+/// added up in the same order.
 #[inline(always)]
 fn sums_lanes<S: Simd, const K: usize>(
     simd: S,

@@ -1,5 +1,5 @@
-//! The formulas of the recentred features, each once, for every kind of number: reference code, lanes, devices and shader
-//! source.
+//! The formulas of the recentred features, each once, for every kind of number: reference code, lanes, devices and
+//! shader source.
 
 use super::{
     ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET,
@@ -29,8 +29,8 @@ pub fn absorbance<R: Real>(alpha: R) -> R {
     )
 }
 
-/// ln(a/b), as accurate relative to itself where a is near b as elsewhere: a quotient near 1 keeps little of what made it
-/// differ from 1, and devices' logarithms are coarse there.
+/// ln(a/b), as accurate relative to itself where a is near b as elsewhere: a quotient near 1 keeps little of what made
+/// it differ from 1, and devices' logarithms are coarse there.
 #[inline(always)]
 pub fn log_ratio<R: Real>(a: R, b: R) -> R {
     R::step(
@@ -55,9 +55,9 @@ pub fn log_ratio<R: Real>(a: R, b: R) -> R {
 pub fn moment_depth<R: Real>(v: R, [v0, v1]: [R; 2]) -> R {
     R::step(
         "moment_depth",
-        "Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the \
-         pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel is too thin for \
-         its moments.",
+        "Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has \
+         found the pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel \
+         is too thin for its moments.",
         [("v", v), ("v0", v0), ("v1", v1)],
         |[v, v0, v1]| {
             let warped = c(2.0) * log_ratio(v, v0) / log_ratio(v1, v0).max(c(1e-30)) - c(1.0);
@@ -74,6 +74,7 @@ pub fn moments<R: Real, const K: usize>(z: R, absorbance: R) -> [R; K] {
         "Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.",
         [("z", z), ("absorbance", absorbance)],
         ("", []),
+        "own",
         |[z, absorbance], []| {
             let mut term = absorbance;
             std::array::from_fn(|k| {
@@ -102,8 +103,8 @@ fn recentred_moments<R: Real, const K: usize>(
 ) -> [R; K] {
     R::step_array(
         "recentred_moments",
-        "Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their \
-         absorbance 1 / per_b0.",
+        "Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by \
+         their absorbance 1 / per_b0.",
         [
             ("z", z),
             ("absorbance", absorbance),
@@ -112,6 +113,7 @@ fn recentred_moments<R: Real, const K: usize>(
             ("per_b0", per_b0),
         ],
         ("b", b),
+        "m",
         |[z, absorbance, centre, per_h, per_b0], b| {
             let own = moments::<R, K>(z, absorbance);
             let mut m: [R; K] = std::array::from_fn(|k| ((b[k] - own[k]) * per_b0).named_at("m", k + 1));
@@ -186,8 +188,8 @@ fn shrink_to_prior<R: Real>(value: R, expected: R, noise: R, deviation: R) -> R 
     )
 }
 
-/// Share of the others' absorbance in front of one of three fragments: the other two are the ends, and their mean says how they
-/// share.
+/// Share of the others' absorbance in front of one of three fragments: the other two are the ends, and their mean says
+/// how they share.
 #[inline(always)]
 pub fn share_of_three<R: Real>(mean: R) -> R {
     (c(0.5) - c(0.5) * mean).clamp(c(0.0), c(1.0))
@@ -195,17 +197,18 @@ pub fn share_of_three<R: Real>(mean: R) -> R {
 
 /// Share of the others' absorbance in front of place x in a pixel of four.
 ///
-/// The nearest and the farthest are known atoms at −1 and 1; (1 − x²) μ holds the third alone, so its place u is the inner mean.
-/// With (1 − m_2) = (1 − u²) a for its mass a, the ends weigh (1 ∓ m_1 − (1 − m_2)/(1 ± u))/2. In front lie the near end and,
-/// where it is nearer than x, the third: all but the far end then, which says the same and is well conditioned where the near
-/// end is not. Rounding leaves u uncertain by the transition width; so much to either side of it the one goes over to the other,
-/// and as mean, spread and inner mean fade to what is expected, so does the share: it is continuous in the moments.
+/// The nearest and the farthest are known atoms at −1 and 1; (1 − x²) μ holds the third alone, so its place u is the
+/// inner mean. With (1 − m_2) = (1 − u²) a for its mass a, the ends weigh (1 ∓ m_1 − (1 − m_2)/(1 ± u))/2. In front lie
+/// the near end and, where it is nearer than x, the third: all but the far end then, which says the same and is well
+/// conditioned where the near end is not. Rounding leaves u uncertain by the transition width; so much to either side
+/// of it the one goes over to the other, and as mean, spread and inner mean fade to what is expected, so does the
+/// share: it is continuous in the moments.
 #[inline(always)]
 pub fn share_of_four<R: Real>(x: R, [mean, spread, u]: [R; 3], transition_width: R) -> R {
     R::step(
         "share_of_four",
-        "Share of the others' absorbance in front of place x in a pixel of four: atoms at -1, u and 1 have this mean and \
-         spread. Within the transition width of u, in front and behind go over into one another.",
+        "Share of the others' absorbance in front of place x in a pixel of four: atoms at -1, u and 1 have this mean \
+         and spread. Within the transition width of u, in front and behind go over into one another.",
         [
             ("x", x),
             ("mean", mean),
@@ -285,7 +288,8 @@ pub struct Others<R, const K: usize> {
 }
 
 impl<R: Real, const K: usize> Others<R, K> {
-    /// Takes the fragment's own terms out of the sums and moves the moments to the pixel's range; `absorbance` is [`others`].
+    /// Takes the fragment's own terms out of the sums and moves the moments to the pixel's range; `absorbance` is
+    /// [`others`].
     #[inline(always)]
     pub fn new(p: &Pass2<R, K>, absorbance: R) -> Self {
         // Where next to nothing is left its moments are not used, and stay finite.
@@ -319,10 +323,11 @@ impl<R: Real, const K: usize> Others<R, K> {
 
 /// The other fragments of a pixel by moments that rounding may have made noise of.
 ///
-/// As the noise of a mean or a spread grows beyond what it differs from pixel to pixel anyhow, it goes over to what the moments
-/// before it lead to expect: the inner mean and spread to about those of the beta law that has the measure's mean and spread,
-/// the spread to what is usual, the mean to 0. So a pixel that is ever thinner for its storage is described by four moments,
-/// then by two, then by its mean, without a jump. From the fifth moment on a mean goes to 0 and a spread to ½.
+/// As the noise of a mean or a spread grows beyond what it differs from pixel to pixel anyhow, it goes over to what the
+/// moments before it lead to expect: the inner mean and spread to about those of the beta law that has the measure's
+/// mean and spread, the spread to what is usual, the mean to 0. So a pixel that is ever thinner for its storage is
+/// described by four moments, then by two, then by its mean, without a jump. From the fifth moment on a mean goes to 0
+/// and a spread to ½.
 #[derive(Debug, Clone, Copy)]
 pub struct Rounded<R, const K: usize> {
     others: Others<R, K>,
@@ -342,8 +347,8 @@ pub struct Description<R> {
     spread0: R,
     /// Mean of (1 − x²) times the measure.
     mean1: R,
-    /// How far the latter may usually be off, by noise or, where that is more than is known anyhow, by what it differs from
-    /// pixel to pixel.
+    /// How far the latter may usually be off, by noise or, where that is more than is known anyhow, by what it differs
+    /// from pixel to pixel.
     transition_width: R,
     /// One over the mass of (1 − x²) times the measure.
     per_mass1: R,
@@ -371,7 +376,9 @@ impl<R: Real, const K: usize> Rounded<R, K> {
     #[inline(always)]
     fn spread(&self, mean0: R, noise2: R) -> R {
         let most0 = (c(1.0) - square(mean0)).max(c(MIN_MASS)).named("most0");
-        let raw = ((self.others.m[1] - square(mean0)) / most0).clamp(c(0.0), c(1.0));
+        let raw = ((self.others.m[1] - square(mean0)) / most0)
+            .clamp(c(0.0), c(1.0))
+            .named("raw_spread0");
         let (expected, deviation) = (USUAL_SPREAD.of(self.per_n), SPREAD_DEVIATION.of(self.per_n));
         shrink_to_prior(raw, expected, noise2 / most0, deviation).named("spread0")
     }
@@ -387,8 +394,8 @@ impl<R: Real, const K: usize> Rounded<R, K> {
         let per_mass1 = (c(1.0) / (c(1.0) - m[1]).max(c(MIN_MASS)))
             .note("The same of (1 - x^2) times the measure, which does not hold the ends.")
             .named("per_mass1");
-        let raw = ((m[0] - m[2]) * per_mass1).clamp(c(-1.0), c(1.0));
-        let expected = mean0 * (c(1.0) - spread0) / (c(1.0) + spread0);
+        let raw = ((m[0] - m[2]) * per_mass1).clamp(c(-1.0), c(1.0)).named("raw_mean1");
+        let expected = (mean0 * (c(1.0) - spread0) / (c(1.0) + spread0)).named("expected_mean1");
         let deviation = (INNER_MEAN_DEVIATION.of(self.per_n) * (spread0 + c(0.02))).named("deviation");
         let noise = (noise3 * per_mass1).named("noise");
         let all = (noise + c(ARITHMETIC * R::ROUNDING) * per_mass1).named("all_noise");
@@ -396,7 +403,7 @@ impl<R: Real, const K: usize> Rounded<R, K> {
             mean0,
             spread0,
             mean1: shrink_to_prior(raw, expected, noise, deviation).named("mean1"),
-            transition_width: all * deviation / (all + deviation),
+            transition_width: (all * deviation / (all + deviation)).named("transition_width"),
             per_mass1,
             noise4: noise3 * further,
         }
@@ -442,16 +449,18 @@ impl<R: Real, const K: usize> Rounded<R, K> {
         } = *d;
         let m = &self.others.m;
         let most1 = (c(1.0) - square(mean1)).max(c(MIN_MASS)).named("most1");
-        let raw = (((m[1] - m[3]) * d.per_mass1 - square(mean1)) / most1).clamp(c(0.0), c(1.0));
+        let raw = (((m[1] - m[3]) * d.per_mass1 - square(mean1)) / most1)
+            .clamp(c(0.0), c(1.0))
+            .named("raw_square1");
         let deviation = INNER_SPREAD_DEVIATION.of(self.per_n) * (spread0 + c(0.02));
         let offset = (mean1 * (c(1.0) + spread0) - mean0 * (c(1.0) - spread0)).named("offset");
         let square0 = square(spread0).named("square0");
         let usual = USUAL_INNER_SPREAD.of(self.per_n) + c(INNER_SPREAD_OF_SPREAD) * square0 * square0
             - c(INNER_SPREAD_OF_OFFSET) * offset * offset;
-        let expected = (usual * spread0 / (c(1.0) + spread0 + spread0)).clamp(c(0.0), c(1.0));
-        shrink_to_prior(raw, expected, d.noise4 * d.per_mass1 / most1, deviation)
-            .sqrt()
-            .named("spread1")
+        let expected = usual * spread0 / (c(1.0) + spread0 + spread0);
+        let expected = expected.clamp(c(0.0), c(1.0)).named("expected_square1");
+        let square1 = shrink_to_prior(raw, expected, d.noise4 * d.per_mass1 / most1, deviation);
+        square1.sqrt().named("spread1")
     }
 
     /// Moments of (1 − x²)² μ and so on: differences of differences, faded out as rounding leaves noise of them.

@@ -1,9 +1,11 @@
-//! Recentred features: what the other fragments of a pixel look like from the pixel's own depth range, with everything taken out that is known exactly.
+//! Recentred features: what the other fragments of a pixel look like from the pixel's own depth range, with everything
+//! taken out that is known exactly.
 //!
-//! Pass 1 adds up b_0..b_K, counts fragments and keeps the nearest and the farthest view depth. Pass 2 removes the fragment's own absorbance,
-//! moves the moments to the pixel's own range [−1, 1], and describes the measure μ of the other fragments' absorbance by means and spreads:
-//! of μ itself, then of (1 − x²) μ, which no longer holds the two known fragments at the ends, and so on. Each spread is the variance as a share
-//! of the greatest that the mean allows, so that every feature has its range whatever the others are (canonical moments are built alike).
+//! Pass 1 adds up b_0..b_K, counts fragments and keeps the nearest and the farthest view depth. Pass 2 removes the
+//! fragment's own absorbance, moves the moments to the pixel's own range [−1, 1], and describes the measure μ of the
+//! other fragments' absorbance by means and spreads: of μ itself, then of (1 − x²) μ, which no longer holds the two
+//! known fragments at the ends, and so on. Each spread is the variance as a share of the greatest that the mean allows,
+//! so that every feature has its range whatever the others are (canonical moments are built alike).
 
 mod extract;
 pub mod formulas;
@@ -71,7 +73,8 @@ const fn spec<const K: usize>(name: &'static str, answer: &'static str) -> Featu
         description: &DESCRIPTION,
         sums: Sums {
             moments: K,
-            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are moments.
+            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are
+            // moments.
             bits_per_pixel: 128 + 32 + 16 + 64 + 32 * K as u32,
             has_precisions: true,
         },
@@ -164,7 +167,8 @@ pub struct FragmentTerms<R> {
 pub struct Rounding<R> {
     /// About the greatest that one rounding does to a moment, as a share of b_0.
     pub unit: R,
-    /// Whether every addition rounds, so that errors grow as the root of the number of fragments; else the finished sum alone is rounded.
+    /// Whether every addition rounds, so that errors grow as the root of the number of fragments; else the finished sum
+    /// alone is rounded.
     pub every_addition: bool,
 }
 
@@ -181,7 +185,8 @@ impl<R: Real> Rounding<R> {
     /// The usual error of a moment of n fragments, as a share of [`Self::unit`].
     ///
     /// # Accuracy
-    /// Measured over random pixels of 3 to 256 fragments: 0.05 to 0.1 √n for the fourth moment, 0.1 to 0.2 √n for the first.
+    /// Measured over random pixels of 3 to 256 fragments: 0.05 to 0.1 √n for the fourth moment, 0.1 to 0.2 √n for the
+    /// first.
     #[inline(always)]
     fn usual(&self, n: R) -> R {
         if self.every_addition {
@@ -207,7 +212,8 @@ pub const MIN_HALF_RANGE: f64 = 1e-8;
 /// Greatest absorbance of a pixel that is computed with; more can only come of numbers that are none.
 pub const MAX_ABSORBANCE: f64 = 1e30;
 
-/// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what the expansion leaves out is 1e-5 of the range.
+/// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what
+/// the expansion leaves out is 1e-5 of the range.
 pub const THIN: f64 = 0.01;
 
 impl<R: Scalar, const K: usize> PixelSums<R, K> {
@@ -227,8 +233,8 @@ impl<R: Scalar, const K: usize> PixelSums<R, K> {
     /// `ends` are the moment depths of the nearest and the farthest view depth.
     ///
     /// # Domain
-    /// A fragment that pass 1 has added. Whatever rounding has done to the sums, the answer is in [0, 1] and the features are finite and within
-    /// their ranges.
+    /// A fragment that pass 1 has added. Whatever rounding has done to the sums, the answer is in [0, 1] and the
+    /// features are finite and within their ranges.
     pub fn classify(&self, terms: FragmentTerms<R>, ends: [R; 2]) -> Pass2Input<R, K> {
         self.classify_stored(terms, ends, Rounding::of_arithmetic(R::ONE))
     }
@@ -287,7 +293,8 @@ pub const USUAL_NOISE: f64 = 0.12;
 /// How much errors of moments grow from one to the next, as a share of the bound.
 pub const NOISE_GROWTH: f64 = 0.87;
 
-/// Roundings of the arithmetic itself within which two places are taken for one, whatever the sums; devices' quotients are a few ULP off.
+/// Roundings of the arithmetic itself within which two places are taken for one, whatever the sums; devices' quotients
+/// are a few ULP off.
 pub const ARITHMETIC: f64 = 8.0;
 
 /// A quantity of random pixels of n fragments, as a + b/n.
@@ -314,13 +321,16 @@ pub const SPREAD_DEVIATION: ByCount = ByCount { many: 0.12, few: 0.5 };
 /// Standard deviation of the inner mean about what mean and spread lead to expect, as a share of the spread.
 pub const INNER_MEAN_DEVIATION: ByCount = ByCount { many: 0.17, few: 3.1 };
 
-/// What is expected of the square of the inner spread, as a share of that of the beta law, where the spread is small and the inner mean is what mean and spread lead to expect.
+/// What is expected of the square of the inner spread, as a share of that of the beta law, where the spread is small
+/// and the inner mean is what mean and spread lead to expect.
 pub const USUAL_INNER_SPREAD: ByCount = ByCount { many: 0.94, few: -3.8 };
 
-/// How much more is expected of that share, times the fourth power of the spread: what is spread out most gathers in several places, not at the ends alone.
+/// How much more is expected of that share, times the fourth power of the spread: what is spread out most gathers in
+/// several places, not at the ends alone.
 pub const INNER_SPREAD_OF_SPREAD: f64 = 4.0;
 
-/// How much less is expected of it, times the square of (1 + spread) (inner mean − what is expected of that): what is off to a side is narrow.
+/// How much less is expected of it, times the square of (1 + spread) (inner mean − what is expected of that): what is
+/// off to a side is narrow.
 pub const INNER_SPREAD_OF_OFFSET: f64 = 1.2;
 
 /// Standard deviation of the square of the inner spread about what is expected, as a share of the spread.
@@ -405,7 +415,8 @@ mod tests {
         }
     }
 
-    /// One, two and three fragments in f64: 1e-9, whatever their depths and absorbances. Control: transmittances of the reversed pixel.
+    /// One, two and three fragments in f64: 1e-9, whatever their depths and absorbances. Control: transmittances of the
+    /// reversed pixel.
     #[test]
     fn up_to_three_fragments_are_exact() {
         let mut rng = stream(1, 90, 0);
@@ -447,9 +458,9 @@ mod tests {
         (worst, sum)
     }
 
-    /// Four fragments in f64, pixel half-range 0.1 and more, gaps of 5 % of the range: to 1e-9. Nearer together or thinner, rounding of the moments grows with the third
-    /// power of 1/half-range; in f32 the mean squared error stays below twice what was measured. Control: the
-    /// thinnest pixels break the bound of the others.
+    /// Four fragments in f64, pixel half-range 0.1 and more, gaps of 5 % of the range: to 1e-9. Nearer together or
+    /// thinner, rounding of the moments grows with the third power of 1/half-range; in f32 the mean squared error stays
+    /// below twice what was measured. Control: the thinnest pixels break the bound of the others.
     #[test]
     fn four_fragments_are_exact_where_rounding_allows() {
         for (half, gap, bar) in [(0.5, 0.05, 1e-9), (0.1, 0.05, 1e-9)] {
@@ -464,8 +475,8 @@ mod tests {
         }
     }
 
-    /// Pixels of four with sums rounded to f32, however thin: a hundredth of a rounding of any moment moves T by next to nothing. Control: ten roundings move it by a tenth now
-    /// and then.
+    /// Pixels of four with sums rounded to f32, however thin: a hundredth of a rounding of any moment moves T by next
+    /// to nothing. Control: ten roundings move it by a tenth now and then.
     #[test]
     fn four_fragments_leave_no_jump() {
         let mut rng = stream(5, 90, 0);
@@ -511,7 +522,8 @@ mod tests {
         assert!(worst <= 0.02 && controls > 100, "{worst}, {controls} controls");
     }
 
-    /// Features of μ against their definition in the pixel's own range, in f64: 1e-9 for pixels of half-range 0.3, so for every number of moments.
+    /// Features of μ against their definition in the pixel's own range, in f64: 1e-9 for pixels of half-range 0.3, so
+    /// for every number of moments.
     #[test]
     fn features_follow_their_definition() {
         fn compare<const K: usize>() {

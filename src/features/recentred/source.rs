@@ -1,5 +1,5 @@
-//! Shader source of the recentred features: the formulas of [`formulas`](super::formulas) and [`visible`] as functions, and the
-//! branches around them.
+//! Shader source of the recentred features: the formulas of [`formulas`](super::formulas) and [`visible`] as functions,
+//! and the branches around them.
 
 use super::formulas::{
     ALONE, Others, Pass2, absorbance, half_range, is_thin, moment_depth, others, place_in_thin, share_of_three,
@@ -78,9 +78,10 @@ pub fn write_features<const K: usize>(source: &Source) {
     source.constant(ROUNDING, about, f32::EPSILON);
     let width = columns(K).len();
     let about = format!(
-        "Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest \
-         and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b{K}. \
-         The result holds the {width} features, then T where it is known without the network, else -1. No branch is taken."
+        "Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: \
+         nearest and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and \
+         moments b1..b{K}. The result holds the {width} features, then T where it is known without the network, else \
+         -1. No branch is taken."
     );
     let list = parameters(&PASS2_PARAMETERS, K);
     source.begin_function("nmt_recentred", &about, &list, Type::Reals(width + 1));
@@ -128,9 +129,9 @@ pub fn write_answers<const K: usize>(source: &Source) {
 
 /// Known answers where there are, the network where there are none.
 fn fragment_transmittance<const K: usize>(source: &Source) {
-    let about = "Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known \
-                 without the network branches around the features and the network, so that groups of threads in which all is \
-                 known skip them.";
+    let about = "Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is \
+                 known without the network branches around the features and the network, so that groups of threads in \
+                 which all is known skip them.";
     let list = parameters(&PASS2_PARAMETERS, K);
     source.begin_function("nmt_fragment_transmittance", about, &list, Type::Real);
     let [v, nearest, farthest, b0] = ["v", "nearest", "farthest", "b0"].map(|name| source.real(name));
@@ -166,20 +167,21 @@ fn visible_transmittance<const K: usize>(source: &Source) {
         "\n// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in\n\
          // [0, 1].\n",
     );
-    let about = "Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a \
-                 display step of 1/256.";
+    let about = "Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than \
+                 half a display step of 1/256.";
     source.constant(FAINT_SWITCH, about, FAINT);
-    let about = "Fragments that are hidden weigh no more than this, all of a pixel together: answered like the farthest, they \
-                 change no channel by more than twice as much against exact answers of theirs, where the weights of the pixel \
-                 (opacity times answer, what pass 2 adds up) sum to a half or more. Exact answers sum to 0.99 where one looks; \
-                 a network's do not have to.";
+    let about = "Fragments that are hidden weigh no more than this, all of a pixel together: answered like the \
+                 farthest, they change no channel by more than twice as much against exact answers of theirs, where \
+                 the weights of the pixel (opacity times answer, what pass 2 adds up) sum to a half or more. Exact \
+                 answers sum to 0.99 where one looks; a network's do not have to.";
     source.constant(HIDDEN_SWITCH, about, HIDDEN);
     let b: [_; K] = source.reals("b");
     visible::first_hidden_depth(source.real("b0"), b[0], b[1]);
     hidden_weight::<K>(source);
 
-    let about = "Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but \
-                 for faint pixels and hidden fragments. Pixels of up to four fragments have forms of their own.";
+    let about = "Pass 2, with the network for what can be seen: parameters and answers as of \
+                 nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels of up to four fragments \
+                 have forms of their own.";
     source.begin_function(
         "nmt_visible_transmittance",
         about,
@@ -218,9 +220,9 @@ fn visible_transmittance<const K: usize>(source: &Source) {
 }
 
 fn hidden_weight<const K: usize>(source: &Source) {
-    let about = "The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments. \
-                 Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies \
-                 there, rounding included.";
+    let about = "The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these \
+                 moments. Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the \
+                 share that lies there, rounding included.";
     source.begin_function("nmt_hidden_weight", about, &parameters(&WEIGHED, K), Type::Real);
     let p = pass2::<K>(source);
     let absorbance = others(p.b0, p.absorbance).named("others");
@@ -230,4 +232,33 @@ fn hidden_weight<const K: usize>(source: &Source) {
     let m = std::array::from_fn(|k| others.m[k]);
     let behind = visible::most_behind(others.along, m, &noise);
     source.return_value(visible::hidden_weight(absorbance, p.absorbance, p.n, behind, &noise));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::dialect::{Glsl, Hlsl, Wgsl};
+    use crate::numeric::source::Dialect;
+
+    /// Whatever is used twice has a name, and no line is over 120 columns. Control: the writer tells of what has none.
+    #[test]
+    fn nothing_is_written_twice() {
+        fn check<const K: usize>(dialect: &'static dyn Dialect) {
+            let source = Source::new(dialect, "nmt");
+            write_features::<K>(&source);
+            write_answers::<K>(&source);
+            assert_eq!(source.repeated(), Vec::<String>::new());
+            let text = source.into_text();
+            let long: Vec<&str> = text.lines().filter(|line| line.chars().count() > 120).collect();
+            assert!(long.is_empty() && text.lines().count() > 150, "{long:?}");
+        }
+        for dialect in [&Wgsl as &'static dyn Dialect, &Glsl, &Hlsl] {
+            check::<4>(dialect);
+            check::<6>(dialect);
+            check::<8>(dialect);
+        }
+        let source = Source::new(&Wgsl, "nmt");
+        let unnamed = source.real("x").exp();
+        assert!((!format!("{:?}", unnamed * unnamed).is_empty()) && source.repeated() == ["exp(x)"]);
+    }
 }
