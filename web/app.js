@@ -226,7 +226,7 @@ function showMeasurements() {
   }
   const facts = [
     ["", `<b>${escape(renderer.adapter)}</b>, ${renderer.api}`],
-    ["", `${renderer.width} × ${renderer.height}`, "more"],
+    ...(renderer.width ? [["", `${renderer.width} × ${renderer.height}`, "more"]] : []),
   ];
   if (now) {
     const mean = now.covered ? now.fragments / now.covered : 0;

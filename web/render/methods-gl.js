@@ -19,7 +19,7 @@ float total(ivec2 at) {
 
 function network(name) {
   return {
-    functions: [`web/shaders/${name}.glsl`],
+    functions: [`shaders/${name}/${name}.glsl`],
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
     ends: true,
@@ -28,21 +28,17 @@ function network(name) {
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
 void accumulate(Surface s) {
-    float a = nmt_absorbance(s.alpha);
-    float b[4] = nmt_moments(nmt_moment_depth(s.v, frame.range.x, frame.range.y), a);
-    out0 = vec4(a, b[0], b[1], b[2]);
-    out1 = vec4(b[3], 1.0, 0.0, 0.0);
+    NmtSums sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
+    out0 = sums.sums0;
+    out1 = sums.sums1;
 }
 `,
     weight: `
 float weight(Surface s, ivec2 at) {
-    vec4 b0123 = texelFetch(target0, at, 0);
-    vec2 b4_n = texelFetch(target1, at, 0).xy;
     vec2 ends = ends_of(at);
-    return nmt_fragment_transmittance(
-        s.v, nmt_moment_depth(s.v, frame.range.x, frame.range.y), nmt_absorbance(s.alpha), ends.x, ends.y,
-        nmt_moment_depth(ends.x, frame.range.x, frame.range.y), nmt_moment_depth(ends.y, frame.range.x, frame.range.y),
-        b4_n.y, b0123.x, float[4](b0123.y, b0123.z, b0123.w, b4_n.x));
+    return nmt_pass2(
+        s.v, frame.range.x, frame.range.y, s.alpha,
+        texelFetch(target0, at, 0), texelFetch(target1, at, 0), vec4(-ends.x, ends.y, 0.0, 0.0));
 }
 `,
     total: FIRST_IS_TOTAL,

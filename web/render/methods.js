@@ -34,27 +34,23 @@ function network(name, title, note) {
     note,
     kind: "blended",
     bits: 32 * 8,
-    functions: [`web/shaders/${name}.wgsl`],
+    functions: [`shaders/${name}/${name}.wgsl`],
     targets: [add("rgba32float"), add("rg32float"), ENDS],
     // Sums as f16 where f32 cannot be blended into; the ends are then two depth buffers.
     half: { targets: [add("rgba16float"), add("rg16float")], bits: 16 * 6 + 64 },
     accumulate: `
-struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4_n: vec2<f32>, @location(2) ends: vec2<f32> }
+struct Sums { @location(0) sums0: vec4<f32>, @location(1) sums1: vec2<f32>, @location(2) range: vec2<f32> }
 fn accumulate(s: Surface) -> Sums {
-    let a = nmt_absorbance(s.alpha);
-    let b = nmt_moments(nmt_moment_depth(s.v, frame.range.x, frame.range.y), a);
-    return Sums(vec4<f32>(a, b[0], b[1], b[2]), vec2<f32>(b[3], 1.0), vec2<f32>(-s.v, s.v));
+    let sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
+    return Sums(sums.sums0, sums.sums1.xy, sums.range.xy);
 }
 `,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
-    let b0123 = textureLoad(target0, at, 0);
-    let b4_n = textureLoad(target1, at, 0);
     let ends = ends_of(at);
-    return nmt_fragment_transmittance(
-        s.v, nmt_moment_depth(s.v, frame.range.x, frame.range.y), nmt_absorbance(s.alpha), ends.x, ends.y,
-        nmt_moment_depth(ends.x, frame.range.x, frame.range.y), nmt_moment_depth(ends.y, frame.range.x, frame.range.y),
-        b4_n.y, b0123.x, array<f32, 4>(b0123.y, b0123.z, b0123.w, b4_n.x),
+    return nmt_pass2(
+        s.v, frame.range.x, frame.range.y, s.alpha,
+        textureLoad(target0, at, 0), textureLoad(target1, at, 0), vec4<f32>(-ends.x, ends.y, 0.0, 0.0),
     );
 }
 `,
@@ -130,8 +126,8 @@ fn total(at: vec2<i32>) -> f32 {
   },
   {
     name: "wavelet",
-    title: "Wavelet, 16 coefficients",
-    note: "Aizenshtein, Smal and McGuire 2022: optical depth in a Haar basis, the fragment itself taken out",
+    title: "Wavelet, rank 3",
+    note: "Aizenshtein, Smal and McGuire 2022: optical depth by 16 Haar coefficients, the fragment itself taken out",
     kind: "blended",
     bits: 256,
     functions: ["web/wgsl/wavelet.wgsl"],
@@ -169,8 +165,8 @@ fn total(at: vec2<i32>) -> f32 {
 }
 `,
   },
-  network("small", "Network: small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
-  network("recommended", "Network: recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  network("small", "Network small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
+  network("recommended", "Network recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
 ];
 
 /** A method by its name. */

@@ -193,7 +193,7 @@ export function shadowOf(scene) {
     for (let i = 0; i < size * size; i++) {
       const edge = Math.min(i % size, size - 1 - (i % size), Math.floor(i / size), size - 1 - Math.floor(i / size));
       const fade = Math.min(1, edge / 20);
-      out[4 * i + c] = Math.round(255 * (1 - fade * (1 - Math.exp(-0.55 * plane[i]))));
+      out[4 * i + c] = Math.round(255 * (1 - 0.6 * fade * (1 - Math.exp(-0.5 * plane[i]))));
     }
   }
   return out;
