@@ -23,6 +23,12 @@ fn depth_of(v: f32) -> f32 {
 }
 `;
 
+const FIRST_IS_TOTAL = `
+fn total(at: vec2<i32>) -> f32 {
+    return textureLoad(target0, at, 0).x;
+}
+`;
+
 const add = (format) => ({ format, operation: "add", clear: [0, 0, 0, 0] });
 const ENDS = { format: "rg32float", operation: "max", clear: [-3e38, -3e38, 0, 0] };
 
@@ -36,6 +42,7 @@ function network(name, title, note) {
     bits: 32 * 8,
     functions: [`shaders/${name}/${name}.wgsl`],
     targets: [add("rgba32float"), add("rg32float"), ENDS],
+    rounds: true,
     // Sums as f16 where f32 cannot be blended into; the ends are then two depth buffers.
     half: { targets: [add("rgba16float"), add("rg16float")], bits: 16 * 6 + 64 },
     accumulate: `
@@ -54,11 +61,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     );
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   };
 }
 
@@ -96,11 +99,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     return weight_mb13_9(s.v, 0.0, s.alpha);
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   },
   {
     name: "moment-power-4",
@@ -118,11 +117,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     return select(power_transmittance_4(b, depth_of(s.v), 0.25), 1.0, b0123.x == 0.0);
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   },
   {
     name: "wavelet",
@@ -167,6 +162,31 @@ fn total(at: vec2<i32>) -> f32 {
   },
   network("small", "Network small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
   network("recommended", "Network recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  {
+    name: "core-6",
+    title: "Core of 6",
+    note: "both ends and the six heaviest fragments by atomics, the rest by mean and spread; no network",
+    kind: "blended",
+    bits: 4 * 32 + 8 * 32,
+    slots: 8,
+    fill: {
+      CORE_DEPTH_BITS: "16",
+      CORE_OCTAVE_BITS: "11",
+      CORE_HEAVY: "6",
+      CORE_SLOTS: "8",
+      CORE_KEY_SCALE: "0.375",
+      CORE_LAST_ABSORBANCE: "27136",
+      CORE_GROUP: "1",
+      CORE_BINDING: "8",
+    },
+    functions: ["src/export/core/codes.wgsl", "web/wgsl/core.wgsl"],
+    first: ["src/export/core/insert.wgsl", "web/wgsl/core-first.wgsl"],
+    second: ["web/wgsl/core-second.wgsl"],
+    targets: [add("rgba32float")],
+    accumulate: "",
+    weight: "",
+    total: FIRST_IS_TOTAL,
+  },
 ];
 
 /** A method by its name. */

@@ -218,3 +218,12 @@ function blurred(plane, size, reach) {
 /** What the exact image depends on, besides scene and size; an image is drawn again when it changes. */
 export const exactKey = (renderer, { camera, opacity, backdrop, oneColor, transparentOnly }) =>
   JSON.stringify([camera, opacity, backdrop, !!oneColor, !!transparentOnly, renderer.bands]);
+
+/**
+ * A network's source for sums that are stored in 16 bits: what thin pixels take for noise follows from how sums are
+ * rounded, here to 2^-10 of b0 instead of 2^-23.
+ */
+export function rounded(source, constant) {
+  if (!constant.test(source)) throw new Error(`the network's source has no ${constant}`);
+  return source.replace(constant, "$19.765625e-4;");
+}

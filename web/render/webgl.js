@@ -12,6 +12,7 @@ import {
   shadowOf,
   sortedSplats,
   viewOf,
+  rounded,
 } from "./shared.js";
 import { GL_METHODS } from "./methods-gl.js";
 import { method } from "./methods.js";

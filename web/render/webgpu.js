@@ -12,6 +12,7 @@ import {
   shadowOf,
   sortedSplats,
   viewOf,
+  rounded,
 } from "./shared.js";
 import { method } from "./methods.js";
 import { text, texts } from "./text.js";
@@ -48,7 +49,7 @@ export class WebGpuRenderer {
         "This adapter has no storage buffers in fragment shaders, which exact lists and stored fragments need.",
       );
     }
-    const bytes = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize, 1 << 29);
+    const bytes = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize, 1 << 28);
     const device = await adapter.requestDevice({
       requiredFeatures: features,
       requiredLimits: { maxStorageBufferBindingSize: bytes, maxBufferSize: Math.max(bytes, 1 << 28) },
@@ -204,10 +205,11 @@ export class WebGpuRenderer {
     return out;
   }
 
-  async functions(m) {
-    const source = await texts(m.functions);
-    // What thin pixels take for noise follows from how sums are stored: here 2^-10 of b0 instead of 2^-23.
-    return this.blends32 ? source : source.replace(/(const \w*NMT_ROUNDING: f32 = )[^;]+;/, "$19.765625e-4;");
+  /** Files of a method, and what one of its passes needs besides. */
+  async functions(m, more = []) {
+    let source = await texts([...m.functions, ...more]);
+    for (const [word, value] of Object.entries(m.fill ?? {})) source = source.replaceAll(word, value);
+    return this.blends32 || !m.rounds ? source : rounded(source, /(const \w*NMT_ROUNDING: f32 = )[^;]+;/);
   }
 
   /** Compiles WGSL; what the compiler says goes into the errors. */
@@ -314,24 +316,20 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
 
   async prepareBlended(m, geometry, kind, primitive, depthStencil) {
     const plan = this.plan(m);
-    const functions = await this.functions(m);
     const state = this.stateText(m);
     const layout = this.stateLayout(m);
-    const recorder = plan.slots
-      ? "@group(1) @binding(8) var<storage, read_write> slots: array<atomic<u32>>;\n" +
-        "@group(1) @binding(9) var opaque_depth: texture_depth_2d;\n"
-      : "";
+    const pass1 = await text(plan.slots ? "web/wgsl/pass1-slots.wgsl" : "web/wgsl/pass1.wgsl");
     const first = await this.module(
       `${m.name} pass 1`,
-      `${geometry}\n${recorder}${functions}\n${m.accumulate}\n${m.pass1 ?? (await text("web/wgsl/pass1.wgsl"))}`,
+      `${geometry}\n${await this.functions(m, m.first)}\n${m.accumulate}\n${pass1}`,
     );
     const second = await this.module(
       `${m.name} pass 2`,
-      `${geometry}\n${state}${functions}\n${m.accumulate}\n${m.weight}\n${await text("web/wgsl/pass2.wgsl")}`,
+      `${geometry}\n${state}${await this.functions(m, m.second)}\n${m.accumulate}\n${m.weight}\n${await text("web/wgsl/pass2.wgsl")}`,
     );
     const third = await this.module(
       `${m.name} resolve`,
-      `${await text("web/wgsl/frame.wgsl")}\n${state}${functions}\n${m.total}\n${await text("web/wgsl/resolve.wgsl")}`,
+      `${await text("web/wgsl/frame.wgsl")}\n${state}${await this.functions(m)}\n${m.total}\n${await text("web/wgsl/resolve.wgsl")}`,
     );
     const targets = plan.targets.map((t) => {
       const both = { srcFactor: "one", dstFactor: "one", operation: t.operation };
