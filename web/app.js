@@ -227,7 +227,7 @@ function showMeasurements() {
     row.classList.toggle("best", others.length > 1 && !exact && found?.view === viewNumber && found.mse === best);
   }
   const facts = [
-    ["", `<b>${escape(renderer.adapter)}</b>, ${renderer.api}`],
+    ["", `<b>${escape(renderer.adapter)}</b><span>, ${renderer.api}</span>`],
     ...(renderer.width ? [["", `${renderer.width} × ${renderer.height}`, "more"]] : []),
   ];
   if (now) {

@@ -122,7 +122,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
   {
     name: "wavelet",
     title: "Wavelet, rank 3",
-    note: "Aizenshtein, Smal and McGuire 2022: optical depth by 16 Haar coefficients, the fragment itself taken out",
+    note: "Aizenshtein, Smal and McGuire 2022: optical depth over the frame's range by 16 Haar coefficients",
     kind: "blended",
     bits: 256,
     functions: ["web/wgsl/wavelet.wgsl"],
