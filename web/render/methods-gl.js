@@ -19,6 +19,7 @@ float total(ivec2 at) {
 
 function network(name) {
   return {
+    rounds: true,
     functions: [`shaders/${name}/${name}.glsl`],
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
@@ -27,7 +28,7 @@ function network(name) {
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     NmtSums sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
     out0 = sums.sums0;
     out1 = sums.sums1;
@@ -55,7 +56,7 @@ export const GL_METHODS = {
     common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     out0 = vec4(absorbance_of(s.alpha), 0.0, 0.0, 0.0);
 }
 `,
@@ -75,7 +76,7 @@ float weight(Surface s, ivec2 at) {
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     float a = absorbance_of(s.alpha);
     float z = depth_of(s.v);
     out0 = a * vec4(1.0, z, z * z, z * z * z);
@@ -95,15 +96,17 @@ float weight(Surface s, ivec2 at) {
     functions: ["web/glsl/wavelet.glsl"],
     formats: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
     half: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
+    ends: true,
+    prepass: true,
     common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
 layout(location = 2) out vec4 out2;
 layout(location = 3) out vec4 out3;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     vec4 c[4];
-    wavelet_terms(depth_of(s.v), absorbance_of(s.alpha), c);
+    wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha), c);
     out0 = c[0];
     out1 = c[1];
     out2 = c[2];
@@ -112,13 +115,13 @@ void accumulate(Surface s) {
 `,
     weight: `
 float weight(Surface s, ivec2 at) {
-    float z = depth_of(s.v);
+    float x = wavelet_place(s.v, ends_of(at));
     vec4 own[4];
-    wavelet_terms(z, absorbance_of(s.alpha), own);
+    wavelet_terms(x, absorbance_of(s.alpha), own);
     vec4 others[4] = vec4[4](
         texelFetch(target0, at, 0) - own[0], texelFetch(target1, at, 0) - own[1],
         texelFetch(target2, at, 0) - own[2], texelFetch(target3, at, 0) - own[3]);
-    return wavelet_transmittance(others, z);
+    return wavelet_transmittance(others, x);
 }
 `,
     total: `

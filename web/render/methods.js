@@ -5,7 +5,7 @@
 
 const SUMS_OF_MOMENTS = `
 struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4: f32 }
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     let a = absorbance_of(s.alpha);
     let z = depth_of(s.v);
     return Sums(a * vec4<f32>(1.0, z, z * z, z * z * z), a * z * z * z * z);
@@ -47,7 +47,7 @@ function network(name, title, note) {
     half: { targets: [add("rgba16float"), add("rg16float")], bits: 16 * 6 + 64 },
     accumulate: `
 struct Sums { @location(0) sums0: vec4<f32>, @location(1) sums1: vec2<f32>, @location(2) range: vec2<f32> }
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     let sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
     return Sums(sums.sums0, sums.sums1.xy, sums.range.xy);
 }
@@ -90,7 +90,7 @@ export const METHODS = [
     half: { targets: [add("r16float")], bits: 16 },
     accumulate: `${COMMON}
 struct Sums { @location(0) b0: f32 }
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     return Sums(absorbance_of(s.alpha));
 }
 `,
@@ -122,12 +122,16 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
   {
     name: "wavelet",
     title: "Wavelet, rank 3",
-    note: "Aizenshtein, Smal and McGuire 2022: optical depth over the frame's range by 16 Haar coefficients",
+    note: "Aizenshtein, Smal and McGuire 2022: 16 Haar coefficients over the pixel's own range, which a pass before finds",
     kind: "blended",
-    bits: 256,
+    bits: 256 + 64,
+    prepass: true,
     functions: ["web/wgsl/wavelet.wgsl"],
     targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
-    half: { targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")], bits: 256 },
+    half: {
+      targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
+      bits: 256 + 64,
+    },
     accumulate: `${COMMON}
 struct Sums {
     @location(0) c0: vec4<f32>,
@@ -135,20 +139,20 @@ struct Sums {
     @location(2) c2: vec4<f32>,
     @location(3) c3: vec4<f32>,
 }
-fn accumulate(s: Surface) -> Sums {
-    let c = wavelet_terms(depth_of(s.v), absorbance_of(s.alpha));
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
+    let c = wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha));
     return Sums(c[0], c[1], c[2], c[3]);
 }
 `,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
-    let z = depth_of(s.v);
-    let own = wavelet_terms(z, absorbance_of(s.alpha));
+    let x = wavelet_place(s.v, ends_of(at));
+    let own = wavelet_terms(x, absorbance_of(s.alpha));
     let others = array<vec4<f32>, 4>(
         textureLoad(target0, at, 0) - own[0], textureLoad(target1, at, 0) - own[1],
         textureLoad(target2, at, 0) - own[2], textureLoad(target3, at, 0) - own[3],
     );
-    return wavelet_transmittance(others, z);
+    return wavelet_transmittance(others, x);
 }
 `,
     total: `

@@ -1,6 +1,6 @@
 struct Sums { @location(0) b012: vec4<f32> }
 
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     return Sums(vec4<f32>(core_moments(core_steps(s)), 1.0));
 }
 

@@ -10,5 +10,5 @@ fn pass1(f: Varying) -> Sums {
         discard;
     }
     record(found, at.x + at.y * u32(frame.size.x));
-    return accumulate(found);
+    return accumulate(found, vec2<i32>(f.position.xy));
 }
