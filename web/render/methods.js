@@ -122,7 +122,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
   {
     name: "wavelet",
     title: "Wavelet, rank 3",
-    note: "Aizenshtein, Smal and McGuire 2022: 16 Haar coefficients over the pixel's own range, which a pass before finds",
+    note: "Aizenshtein, Smal and McGuire 2022: 16 Haar coefficients over the pixel's own range, found by a prepass",
     kind: "blended",
     bits: 256 + 64,
     prepass: true,
