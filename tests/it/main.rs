@@ -2,8 +2,10 @@
 //! independent reader.
 
 mod cli;
+#[path = "../common/mod.rs"]
+mod common;
 mod docs;
-mod fuzz;
+mod documents;
 mod layers;
 mod over_time;
 mod python;
