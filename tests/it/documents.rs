@@ -49,7 +49,8 @@ fn commands(page: &str) -> Vec<String> {
 
 /// Commands at the end of a `--help`.
 fn examples(name: &str) -> Vec<String> {
-    let output = nmt(&["help", name]).success().get_output().stdout.clone();
+    let words: Vec<&str> = std::iter::once("help").chain(name.split(' ')).collect();
+    let output = nmt(&words).success().get_output().stdout.clone();
     let text = String::from_utf8(output).unwrap();
     let (_, examples) = text
         .split_once("Examples:\n")
@@ -288,6 +289,11 @@ fn examples_of_help_run() {
         "schema",
         "run",
         "report",
+        "bench train",
+        "bench generate",
+        "bench infer",
+        "bench methods",
+        "bench tiles",
     ];
     for name in names {
         let lines = examples(name);
