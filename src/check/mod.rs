@@ -3,6 +3,7 @@
 //! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
+pub mod graph;
 pub mod half;
 pub mod hlsl;
 pub mod interpret;
@@ -832,6 +833,12 @@ fn check_onnx(subject: &Subject<'_>, bytes: &[u8], findings: &mut Vec<Finding>) 
     findings.push(
         subject
             .reference
+            .compare(FORMAT, "interpreter", |rows| graph::run(bytes, rows, width)),
+    );
+    #[cfg(feature = "rten")]
+    findings.push(
+        subject
+            .reference
             .compare(FORMAT, "rten", |rows| onnx::rten(bytes, rows, width)),
     );
     findings.push(match onnx::library() {
@@ -947,7 +954,7 @@ mod tests {
             &|_| {},
         ));
         assert!(
-            ["wgsl interpreter", "onnx rten", "json nmt"]
+            ["wgsl interpreter", "onnx interpreter", "json nmt"]
                 .iter()
                 .all(|start| failed.iter().any(|f| f.starts_with(start))),
             "{failed:#?}"
