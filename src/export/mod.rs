@@ -10,7 +10,6 @@ pub mod onnx;
 pub mod recentred;
 pub mod shader;
 pub mod translate;
-pub mod visible;
 
 use crate::model::{Mlp, file};
 use crate::numeric::file::{FileError, Replace, create_folder, may_write, write_atomically};
