@@ -3,8 +3,7 @@
 //!
 //! The text stands in files beside this one, a pair a language; words that begin with `CORE_` are filled in.
 //! `nmt_core_insert` needs atomics on a storage buffer in the fragment stage: WebGPU, Vulkan, Metal, Direct3D 11, GLSL
-//! 4.30, and GLSL ES 3.10 where
-//! `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` is not 0.
+//! 4.30, and GLSL ES 3.10 where `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` is not 0.
 
 #[cfg(test)]
 mod interleaving;
