@@ -2,7 +2,7 @@
 
 use super::{BenchError, Plan, Summary, calls_that_fill};
 use crate::evaluate::{EvaluateError, Truth};
-use crate::export::Format;
+use crate::export::{Format, Precision};
 use crate::features::FeatureSet;
 use crate::gpu::list::{DeviceList, Passes};
 use crate::gpu::method::Composite;
@@ -537,7 +537,7 @@ impl Setting<'_> {
 }
 
 fn is_half(format: Format) -> bool {
-    matches!(format, Format::WgslF16 | Format::WgslPlainF16)
+    format.precision() == Precision::F16
 }
 
 /// What a shader does not say of its method.
@@ -713,7 +713,7 @@ mod tests {
             skip: Skip::Exact,
         };
         let table = setting
-            .on_gpu(gpu, &contenders(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
+            .on_gpu(gpu, &contenders(), &[Format::WGSL, Format::WGSL_PLAIN], &|_| {})
             .unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
         assert!(

@@ -192,7 +192,7 @@ mod tests {
             },
         )
         .unwrap();
-        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
+        let method = MethodShader::neural(&mlp, Format::WGSL).unwrap();
         let range = method.depth_range(&list, None, None).unwrap();
         let found = frames(
             gpu,

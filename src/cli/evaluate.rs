@@ -231,7 +231,7 @@ impl Evaluate {
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
+        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::WGSL));
         for name in &self.methods {
             let (names, demanded) = if name == "all" {
                 (all_names(), false)

@@ -3,11 +3,11 @@
 use super::Verdict;
 use super::ui::Ui;
 use crate::check::rows;
-use crate::export::shader::Precision;
-use crate::export::{self, Format};
+use crate::export::{self, Format, Precision};
 use crate::model::{Mlp, file, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::PathBuf;
@@ -36,27 +36,13 @@ const PRUNE_SEED: u64 = 0x0070_7275_6e65;
 /// Options that say which exports are meant.
 #[derive(Args)]
 pub struct FormatArguments {
-    /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars. Without it: all but the plain ones.
-    #[arg(long, value_enum, value_delimiter = ',')]
-    format: Vec<FormatName>,
-    /// What weights and activations of the hidden layers are kept in. f16 is offered for wgsl, hlsl, metal and spirv.
+    /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars, "-f16" has hidden layers in f16. Without it: all
+    /// but the plain ones.
+    #[arg(long, value_parser = format(), value_delimiter = ',')]
+    format: Vec<Format>,
+    /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered for wgsl, hlsl, metal and spirv.
     #[arg(long, value_enum, default_value = "f32")]
     precision: PrecisionName,
-}
-
-/// A format as it is named on the command line.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
-pub enum FormatName {
-    Wgsl,
-    WgslPlain,
-    Glsl,
-    GlslPlain,
-    Hlsl,
-    HlslPlain,
-    Metal,
-    Spirv,
-    Json,
-    Onnx,
 }
 
 /// A precision as it is named on the command line.
@@ -66,21 +52,9 @@ pub enum PrecisionName {
     F16,
 }
 
-impl FormatName {
-    fn format(self) -> Format {
-        match self {
-            Self::Wgsl => Format::Wgsl,
-            Self::WgslPlain => Format::WgslPlain,
-            Self::Glsl => Format::Glsl,
-            Self::GlslPlain => Format::GlslPlain,
-            Self::Hlsl => Format::Hlsl,
-            Self::HlslPlain => Format::HlslPlain,
-            Self::Metal => Format::Metal,
-            Self::Spirv => Format::Spirv,
-            Self::Json => Format::Json,
-            Self::Onnx => Format::Onnx,
-        }
-    }
+/// Reads a format's name, and lists all of them in the help.
+fn format() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::all().map(Format::name)).try_map(|name| name.parse::<Format>())
 }
 
 impl FormatArguments {
@@ -89,23 +63,15 @@ impl FormatArguments {
     /// # Errors
     /// Where a format that is named has no such precision.
     pub fn formats(&self) -> anyhow::Result<Vec<Format>> {
-        let precision = match self.precision {
-            PrecisionName::F32 => Precision::F32,
-            PrecisionName::F16 => Precision::F16,
+        let precise = |format: Format| match self.precision {
+            PrecisionName::F32 => Ok(format),
+            PrecisionName::F16 => format.with_precision(Precision::F16),
         };
-        let mut formats = Vec::new();
-        if self.format.is_empty() {
-            formats.extend(Format::DEFAULT.into_iter().filter_map(|f| f.with_precision(precision)));
-        }
-        for name in &self.format {
-            match name.format().with_precision(precision) {
-                Some(format) => formats.push(format),
-                None => bail!(
-                    "{} has no f16 form; --precision f16 is offered for wgsl, wgsl-plain, hlsl, hlsl-plain, metal and spirv",
-                    name.format().name()
-                ),
-            }
-        }
+        let mut formats: Vec<Format> = if self.format.is_empty() {
+            Format::DEFAULT.into_iter().filter_map(|f| precise(f).ok()).collect()
+        } else {
+            self.format.iter().map(|&f| precise(f)).collect::<Result<_, _>>()?
+        };
         formats.sort();
         formats.dedup();
         Ok(formats)

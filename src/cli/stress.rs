@@ -251,7 +251,7 @@ impl Stress {
             .filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended)
         {
             let promise = Subject::network(mlp, Execution::default())?.promise;
-            let shader = MethodShader::neural(mlp, Format::Wgsl)?;
+            let shader = MethodShader::neural(mlp, Format::WGSL)?;
             subjects.push(
                 Subject::new(format!("{} @ {}", shader.name, gpu.name()), promise, run(shader))
                     .with_network_as_double(mlp),

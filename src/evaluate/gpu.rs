@@ -199,7 +199,7 @@ mod tests {
         let list = colored_list(40, 30);
         let truth = Truth::new(&list, [0.2, 0.4, 1.0]);
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
-        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
+        let method = MethodShader::neural(&mlp, Format::WGSL).unwrap();
         let cpu = truth
             .judge(&Neural::new(mlp), Context::default())
             .unwrap()

@@ -1,7 +1,7 @@
 //! MSL and SPIR-V, which naga makes of the packed WGSL.
 
-use super::ExportError;
-use super::shader::{self, ENTRY, Kind, Precision};
+use super::shader::{self, ENTRY};
+use super::{ExportError, Format, Precision};
 use crate::features::FeatureSet;
 use crate::model::Mlp;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -40,12 +40,12 @@ pub fn validate(module: &Module) -> Result<ModuleInfo, String> {
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn metal(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
+pub fn metal(mlp: &Mlp, format: Format) -> Result<String, ExportError> {
     let refused = |reason| ExportError::Translate {
         language: "MSL",
         reason,
     };
-    let (module, info) = parse_wgsl(&shader::source(mlp, kind)?).map_err(refused)?;
+    let (module, info) = parse_wgsl(&shader::source(mlp, format)?).map_err(refused)?;
     let options = back::msl::Options {
         lang_version: (2, 0),
         ..Default::default()
@@ -55,15 +55,15 @@ pub fn metal(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
     let more = [
         "Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
     ];
-    Ok(shader::comment(&header(mlp, kind, &more)?) + &text)
+    Ok(shader::comment(&header(mlp, format, &more)?) + &text)
 }
 
 /// The header of the WGSL that a translation is made of, with more lines after its form.
-fn header(mlp: &Mlp, kind: Kind, more: &[&str]) -> Result<Vec<String>, ExportError> {
-    let limit = (kind.precision == Precision::F16)
+fn header(mlp: &Mlp, format: Format, more: &[&str]) -> Result<Vec<String>, ExportError> {
+    let limit = (format.precision() == Precision::F16)
         .then(|| shader::half_limit(mlp))
         .transpose()?;
-    let mut lines = shader::header(mlp, kind, limit);
+    let mut lines = shader::header(mlp, format, limit);
     lines.splice(2..2, more.iter().map(|&l| l.to_owned()));
     Ok(lines)
 }
@@ -138,13 +138,13 @@ fn {name}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
+pub fn spirv(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
     let refused = |reason| ExportError::Translate {
         language: "SPIR-V",
         reason,
     };
     let set = mlp.feature_set();
-    let (module, info) = parse_wgsl(&with_entry_points(&shader::source(mlp, kind)?, set)).map_err(refused)?;
+    let (module, info) = parse_wgsl(&with_entry_points(&shader::source(mlp, format)?, set)).map_err(refused)?;
     let options = back::spv::Options {
         flags: back::spv::WriterFlags::DEBUG,
         ..Default::default()
@@ -163,7 +163,7 @@ pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
         &rows,
         &fragments,
     ];
-    let text = header(mlp, kind, &more)?.join("\n");
+    let text = header(mlp, format, &more)?.join("\n");
     let words = with_string(&words, &text);
     Ok(words.iter().flat_map(|w| w.to_le_bytes()).collect())
 }

@@ -298,7 +298,7 @@ mod tests {
                 .transmittance(&list, Context::default(), &|_| {})
                 .unwrap();
             let error = |t: &[f32]| AbsoluteError::of(&t.iter().map(|&t| t.into()).collect::<Vec<f64>>(), &exact);
-            for format in [Format::Wgsl, Format::WgslPlain] {
+            for format in [Format::WGSL, Format::WGSL_PLAIN] {
                 let method = MethodShader::neural(&mlp, format).unwrap();
                 let found = weights(gpu, &method, &list, None, None).unwrap();
                 // Greatest difference of the nearest 99 %.

@@ -1,7 +1,7 @@
 //! A transparency method as WGSL: what pass 1 adds up, and the weight that pass 2 makes of it. One source serves compute shaders and render passes.
 
 use super::device::GpuError;
-use crate::export::Format;
+use crate::export::{Format, Target};
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
@@ -64,10 +64,7 @@ impl MethodShader {
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, GpuError> {
         let label = || format!("neural:{}", mlp.name());
         let set = mlp.feature_set();
-        if !matches!(
-            format,
-            Format::Wgsl | Format::WgslPlain | Format::WgslF16 | Format::WgslPlainF16
-        ) {
+        if format.target() != Target::Wgsl {
             return Err(GpuError::Source {
                 label: label(),
                 reason: format!("{} is not WGSL", format.name()),

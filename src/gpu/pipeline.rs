@@ -1014,7 +1014,7 @@ pub(crate) mod tests {
     }
 
     pub fn shader(mlp: &Mlp) -> MethodShader {
-        MethodShader::neural(mlp, Format::Wgsl).unwrap()
+        MethodShader::neural(mlp, Format::WGSL).unwrap()
     }
 
     pub fn built_in(name: &str, size: u32) -> FragmentList {

@@ -62,7 +62,12 @@ enum Device {
     Gpu,
 }
 
-const FORMATS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::WgslF16, Format::WgslPlainF16];
+const FORMATS: [Format; 4] = [
+    Format::WGSL,
+    Format::WGSL_PLAIN,
+    Format::WGSL_F16,
+    Format::WGSL_PLAIN_F16,
+];
 
 /// The file that holds all numbers.
 const RESULTS: &str = "results.json";
@@ -245,7 +250,7 @@ fn picture(device: Device) -> String {
 fn label(cost: &Cost) -> String {
     let name = cost.method.strip_prefix("neural:").unwrap_or(&cost.method);
     match cost.format {
-        Some(format) if format != Format::Wgsl.name() => format!("{name} ({format})"),
+        Some(format) if format != Format::WGSL.name() => format!("{name} ({format})"),
         _ => name.to_owned(),
     }
 }
