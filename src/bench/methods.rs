@@ -4,11 +4,11 @@ use super::{BenchError, Plan, Summary, calls_that_fill};
 use crate::evaluate::{EvaluateError, Truth};
 use crate::export::{Format, Precision};
 use crate::features::FeatureSet;
-use crate::gpu::list::{DeviceList, Passes};
-use crate::gpu::method::Composite;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::list::Passes;
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
 use crate::oit::neural::{Neural, Skip};
+use crate::oit::shader::Composite;
 use crate::oit::{self, Accumulated, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
@@ -433,7 +433,7 @@ impl Setting<'_> {
         let mut shaders = vec![(MethodShader::empty(NONE), none)];
         for contender in contenders {
             match contender {
-                Contender::Method(method) => match MethodShader::classic(&method.name()) {
+                Contender::Method(method) => match method.shader() {
                     Some(shader) => {
                         let (bits, transmittance) = (method.bits_per_pixel(), method.weights_are_transmittance());
                         shaders.push((

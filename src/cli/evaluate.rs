@@ -10,13 +10,14 @@ use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_
 use crate::evaluate::{MethodResult, Truth};
 use crate::export::Format;
 use crate::features::MomentFrame;
-use crate::gpu::pipeline::Storage;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::{Gpu, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
-use crate::oit::{Method, all_names, parse};
+use crate::oit::{Method, all_names, parse, shader_of};
 use crate::pixel::FragmentList;
+use crate::shader::ShaderError;
+use crate::shader::passes::TargetPrecision;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -68,7 +69,7 @@ enum StorageName {
     Half,
 }
 
-impl From<StorageName> for Storage {
+impl From<StorageName> for TargetPrecision {
     fn from(name: StorageName) -> Self {
         match name {
             StorageName::Full => Self::Full,
@@ -86,7 +87,7 @@ struct Asked {
     /// Whether `--skip` is for it: a network of `--model`.
     skips: bool,
     /// What the GPU runs; none where there is no shader for it.
-    shader: Option<Result<MethodShader, GpuError>>,
+    shader: Option<Result<MethodShader, ShaderError>>,
 }
 
 /// The file that holds all numbers.
@@ -244,7 +245,7 @@ impl Evaluate {
                     let shader = match name.strip_prefix("neural:") {
                         _ if !self.gpu => None,
                         Some(path) => Some(shader(Path::new(path))?),
-                        None => MethodShader::classic(&name).map(Ok),
+                        None => shader_of(&name).map(Ok),
                     };
                     methods.push(Asked {
                         method,
@@ -356,7 +357,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
 }
 
 /// What the GPU drew, as a table under its name.
-fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[(MethodResult, Option<GpuResult>)]) -> String {
+fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Option<GpuResult>)]) -> String {
     if results.iter().all(|r| r.1.is_none()) {
         return String::new();
     }

@@ -1,12 +1,13 @@
 //! What the GPU makes of a method, beside the CPU's image of it and the exact one.
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, Storage};
+use crate::gpu::pipeline::{Pipeline, Rendered};
 use crate::gpu::tiles::TilePasses;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::oit::Context;
 use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
+use crate::shader::passes::TargetPrecision;
 use serde::{Deserialize, Serialize};
 
 /// A method's image from the GPU against the CPU's, and against the exact one. In JSON, NaN and infinity become null; the count says why.
@@ -78,30 +79,23 @@ fn render(
     list: &FragmentList,
     context: Context,
     background: [f32; 3],
-    storage: Storage,
+    storage: TargetPrecision,
     skip: Skip,
 ) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
+    let list = DeviceList::new(gpu, list)?;
     if !is_drawn(gpu, storage) {
-        let passes = TilePasses::new(gpu, list, method, range, background)?;
+        let passes = TilePasses::new(gpu, &list, method, range, background)?;
         passes.run(gpu, skip)?;
         return passes.render(gpu, skip);
     }
-    let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(
-        gpu,
-        &drawing,
-        &method.clone().with_skip(skip),
-        range,
-        background,
-        storage,
-    )?;
+    let pipeline = Pipeline::new(gpu, &list, &method.clone().with_skip(skip), range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
 }
 
 /// Whether render passes make the image.
-pub fn is_drawn(gpu: &Gpu, storage: Storage) -> bool {
+pub fn is_drawn(gpu: &Gpu, storage: TargetPrecision) -> bool {
     gpu.blends_f32() || !storage.blends_f32()
 }
 
@@ -114,7 +108,7 @@ pub fn judge(
     method: &MethodShader,
     truth: &Truth<'_>,
     context: Context,
-    storage: Storage,
+    storage: TargetPrecision,
     skip: Skip,
     cpu: &Image,
 ) -> Result<GpuJudged, EvaluateError> {
@@ -141,9 +135,13 @@ pub fn judge(
         method: method.name.clone(),
         adapter: gpu.name(),
         passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
-        storage: if is_drawn(gpu, storage) { storage } else { Storage::Full }
-            .name()
-            .to_owned(),
+        storage: if is_drawn(gpu, storage) {
+            storage
+        } else {
+            TargetPrecision::Full
+        }
+        .name()
+        .to_owned(),
         channel_difference_999: within_999(
             (0..list.pixels())
                 .filter(|&p| !list.range(p).is_empty())
@@ -211,7 +209,7 @@ mod tests {
             &method,
             &truth,
             Context::default(),
-            Storage::Full,
+            TargetPrecision::Full,
             Skip::Exact,
             &cpu,
         )
@@ -228,7 +226,7 @@ mod tests {
             &method,
             &truth,
             Context::default(),
-            Storage::Full,
+            TargetPrecision::Full,
             Skip::Exact,
             &other,
         )

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Top to bottom; modules on one line do not import one another.
-const ORDER: [&[&str]; 15] = [
+const ORDER: [&[&str]; 16] = [
     &["numeric"],
     &["pixel"],
     &["synth", "scene"],
@@ -14,6 +14,7 @@ const ORDER: [&[&str]; 15] = [
     &["train"],
     &["oit"],
     &["export"],
+    &["shader"],
     &["gpu"],
     &["check"],
     &["evaluate"],
