@@ -41,7 +41,7 @@ impl Way {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
     /// Fragments that the network was run for.
-    pub asked: u64,
+    pub evaluated: u64,
     /// Pixels told apart; none where they are not.
     pub pixels: Option<PixelCounts>,
     /// Greatest difference of a channel from the image of compute passes that skip nothing.
@@ -150,7 +150,7 @@ pub fn frames(
             } else if let Way::Compute(skip) = s.way {
                 let found = image()?;
                 s.work = Some(Work {
-                    asked: passes.asked(gpu)?,
+                    evaluated: passes.evaluated(gpu)?,
                     pixels: (skip != Skip::None).then(|| passes.counts(gpu)).transpose()?,
                     greatest_change: channel_differences(&found, &reference)?.into_iter().fold(0.0, f64::max),
                     flip_change: flip(&reference, &found)?.mean(),
@@ -204,12 +204,14 @@ mod tests {
         assert_eq!(found.samples.len(), if gpu.blends_f32() { 4 } else { 3 });
         let work: Vec<Work> = found.samples.iter().filter_map(|s| s.work).collect();
         assert_eq!(
-            (work.len(), work[0].asked, work[0].pixels),
+            (work.len(), work[0].evaluated, work[0].pixels),
             (3, list.len() as u64, None)
         );
         assert_eq!((work[0].greatest_change, work[1].greatest_change), (0.0, 0.0));
         assert!(
-            work[1].asked < work[0].asked && work[2].asked <= work[1].asked && work[2].greatest_change <= 1.0 / 512.0,
+            work[1].evaluated < work[0].evaluated
+                && work[2].evaluated <= work[1].evaluated
+                && work[2].greatest_change <= 1.0 / 512.0,
             "{work:?}"
         );
         assert!(

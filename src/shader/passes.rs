@@ -223,7 +223,7 @@ impl Shaders {
         let module = method.module();
         // What thin pixels take for noise follows from how sums are stored.
         let module = if precision == TargetPrecision::Half {
-            with_rounding(&module, crate::features::Storage::F16.rounding().unit)
+            with_rounding(&module, crate::features::SumPrecision::F16.rounding().unit)
         } else {
             module
         };
