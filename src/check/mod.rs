@@ -12,7 +12,7 @@ pub mod shader;
 pub mod translated;
 
 use crate::export::shader::{ENTRY, PRUNED, half_bounds, half_limit, network_function};
-use crate::export::{Format, Precision, Target, onnx as onnx_export, translate};
+use crate::export::{Format, Precision, Prefix, Target, onnx as onnx_export, translate};
 use crate::features::FeatureSet;
 use crate::gpu::{Gpu, compute};
 use crate::model::simplify::{Pruned, fires, without_units};
@@ -510,6 +510,21 @@ struct OnGpu {
     reference: Result<Reference, String>,
 }
 
+/// Shader source with the names that an export without a prefix has.
+fn without_prefix(format: Format, bytes: Vec<u8>) -> Vec<u8> {
+    if !matches!(
+        format.target(),
+        Target::Wgsl | Target::Glsl | Target::Hlsl | Target::Metal
+    ) {
+        return bytes;
+    }
+    let text = std::str::from_utf8(&bytes).ok();
+    match text.and_then(|text| Prefix::of_source(text).map(|prefix| prefix.undo(text))) {
+        Some(text) => text.into_bytes(),
+        None => bytes,
+    }
+}
+
 /// What an export says was taken out of the network.
 fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
     let line = match format.target() {
@@ -577,6 +592,7 @@ pub fn check(
                 continue;
             }
         };
+        let bytes = without_prefix(format, bytes);
         let made = pruned(format, &bytes).and_then(|pruned| match subjects.iter().position(|s| s.pruned == pruned) {
             Some(at) => Ok(at),
             None => Subject::new(mlp, pruned, options).map(|subject| {
@@ -880,7 +896,7 @@ mod tests {
 
     fn exported(mlp: &Mlp) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
-        export::write(mlp, folder.path(), &all(), Replace::No).unwrap();
+        export::write(mlp, folder.path(), &all(), None, Replace::No).unwrap();
         folder
     }
 
@@ -895,6 +911,15 @@ mod tests {
         let mut layers = mlp.layers().to_vec();
         layers[1].weights[3] += 0.25;
         let other = Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone()).unwrap();
+        // Under a prefix the exports are the same to the check, which still sees the other network.
+        let prefix = "glass".parse().unwrap();
+        let glass = tempfile::tempdir().unwrap();
+        export::write(&mlp, glass.path(), &all(), Some(&prefix), Replace::No).unwrap();
+        let text = std::fs::read_to_string(glass.path().join("random.wgsl")).unwrap();
+        assert!(text.contains("fn glass_transmittance(") && !text.contains("fn nmt_"));
+        let findings = check(&mlp, glass.path(), &all(), FEW, &|_| {});
+        assert_eq!(failures(&findings), Vec::<String>::new());
+        assert!(!failures(&check(&other, glass.path(), &[Format::METAL], FEW, &|_| {})).is_empty());
         let failed = failures(&check(&other, folder.path(), &all(), FEW, &|_| {}));
         for format in all() {
             let of_format = failed

@@ -39,7 +39,9 @@ pub fn metal_uses(text: &str, constants: &Constants, entry: &str) -> Result<(), 
     let mut found = literals(body)?.into_iter().filter(|x| *x != 0.0);
     for (name, numbers) in constants {
         // Biases that are added between blocks of weights are found by name or not at all: what is in order are weights.
-        let named = body.contains(&format!("{name}_"));
+        let named = body
+            .match_indices(name.as_str())
+            .any(|(at, _)| !body[at + name.len()..].starts_with(|c: char| c.is_ascii_alphanumeric()));
         if name.starts_with("NMT_W")
             && !named
             && !numbers

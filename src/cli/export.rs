@@ -3,7 +3,7 @@
 use super::Verdict;
 use super::ui::Ui;
 use crate::check::rows;
-use crate::export::{self, Format, Precision};
+use crate::export::{self, Format, Precision, Prefix};
 use crate::model::{Mlp, file, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
@@ -14,13 +14,20 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Export {
-    /// Model file.
+    /// Model file, or the name of a shipped network: recommended, small, moments-6, paper, deep-weighted-blended.
     model: PathBuf,
     /// Folder for the exports.
     #[arg(long)]
     out: PathBuf,
     #[command(flatten)]
     formats: FormatArguments,
+    /// What shader names begin with instead of nmt, so that several networks fit one module: functions glass_..., constants GLASS_..., types Glass...
+    #[arg(long, value_name = "NAME")]
+    prefix: Option<Prefix>,
+    /// Write a shader folder instead: include files in WGSL, GLSL, HLSL and Metal, and the three passes as whole files for WebGPU, OpenGL, OpenGL ES, Vulkan,
+    /// Direct3D and Metal.
+    #[arg(long, conflicts_with_all = ["format", "precision"])]
+    passes: bool,
     /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone: 1000000). Fewer multiply-adds; where such a unit
     /// would fire after all, answers are off. The header says which were taken out, and 'nmt check' holds the exports to the whole network.
     #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, default_missing_value = "1000000")]
@@ -95,13 +102,21 @@ impl Export {
                 simplify::pruned(&whole, &rows)?
             }
         };
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        let prefix = self.prefix.as_ref();
+        if self.passes {
+            let paths = export::files::write(&mlp, &self.out, prefix, replace)?;
+            if ui.json() {
+                let result = |path: &PathBuf| json!({ "network": mlp.shape(), "file": path });
+                ui.print_json("export", paths.iter().map(result).collect())?;
+            } else {
+                let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
+                ui.print(&lines)?;
+            }
+            return Ok(Verdict::Fine);
+        }
         let formats = self.formats.formats()?;
-        let paths = export::write(
-            &mlp,
-            &self.out,
-            &formats,
-            if self.force { Replace::Yes } else { Replace::No },
-        )?;
+        let paths = export::write(&mlp, &self.out, &formats, prefix, replace)?;
         if ui.json() {
             let result = |(f, path): (&Format, &PathBuf)| {
                 json!({

@@ -4,14 +4,18 @@
 //! it, where it comes from and how accurate it is. Weights stand in constant arrays that are read by literal indices only; a run-time index makes
 //! shader compilers copy the array at each access. WGSL, GLSL and HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
+pub mod calls;
+pub mod files;
 pub mod format;
 pub mod onnx;
+pub mod prefix;
 pub mod recentred;
 pub mod shader;
 pub mod translate;
 pub mod visible;
 
 pub use format::{Form, Format, FormatError, Precision, Target};
+pub use prefix::Prefix;
 
 use crate::model::{Mlp, file};
 use crate::numeric::file::{FileError, Replace, create_folder, may_write, write_atomically};
@@ -46,9 +50,17 @@ pub enum ExportError {
 /// # Errors
 /// [`ExportError::Half`] where the network does not fit into f16.
 pub fn encode(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
+    encode_as(mlp, format, None)
+}
+
+/// The bytes of an export whose functions, constants and types have a prefix of their own. SPIR-V, ONNX and JSON have no such names.
+///
+/// # Errors
+/// As [`encode`].
+pub fn encode_as(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Vec<u8>, ExportError> {
     Ok(match format.target() {
-        Target::Wgsl | Target::Glsl | Target::Hlsl => shader::source(mlp, format)?.into_bytes(),
-        Target::Metal => translate::metal(mlp, format)?.into_bytes(),
+        Target::Wgsl | Target::Glsl | Target::Hlsl => shader::source(mlp, format, prefix)?.into_bytes(),
+        Target::Metal => translate::metal(mlp, format, prefix)?.into_bytes(),
         Target::Spirv => translate::spirv(mlp, format)?,
         Target::Json => file::to_json(mlp).into_bytes(),
         Target::Onnx => onnx::encode(mlp),
@@ -60,12 +72,18 @@ pub fn encode(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
 /// # Errors
 /// [`FileError::Exists`] before anything is written where one of them is there and may not be replaced, and whatever [`encode`] refuses; otherwise
 /// [`FileError`] with no file half-written.
-pub fn write(mlp: &Mlp, folder: &Path, formats: &[Format], replace: Replace) -> Result<Vec<PathBuf>, ExportError> {
+pub fn write(
+    mlp: &Mlp,
+    folder: &Path,
+    formats: &[Format],
+    prefix: Option<&Prefix>,
+    replace: Replace,
+) -> Result<Vec<PathBuf>, ExportError> {
     let paths: Vec<_> = formats.iter().map(|f| f.path(folder, mlp)).collect();
     paths.iter().try_for_each(|path| may_write(path, replace))?;
     let encoded = formats
         .iter()
-        .map(|&format| encode(mlp, format))
+        .map(|&format| encode_as(mlp, format, prefix))
         .collect::<Result<Vec<_>, _>>()?;
     create_folder(folder)?;
     for (bytes, path) in encoded.iter().zip(&paths) {

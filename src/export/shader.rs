@@ -1,6 +1,6 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
 
-use super::{ExportError, Form, Format, Precision, recentred, visible};
+use super::{ExportError, Form, Format, Precision, Prefix, calls, recentred, visible};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE, MomentDepthKind};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
@@ -250,7 +250,7 @@ pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
 ///
 /// # Panics
 /// If the format is no shader.
-pub fn source(mlp: &Mlp, format: Format) -> Result<String, ExportError> {
+pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<String, ExportError> {
     let language = format.language().expect("the format of a shader");
     let (form, precision) = (format.form(), format.precision());
     let limit = (precision == Precision::F16).then(|| half_limit(mlp)).transpose()?;
@@ -260,7 +260,7 @@ pub fn source(mlp: &Mlp, format: Format) -> Result<String, ExportError> {
         precision,
         limit,
     };
-    let mut text = comment(&header(mlp, format, limit));
+    let mut text = String::new();
     if language == Language::Wgsl && precision == Precision::F16 {
         text += "enable f16;\n\n";
     }
@@ -274,7 +274,48 @@ pub fn source(mlp: &Mlp, format: Format) -> Result<String, ExportError> {
         text += &recentred::answer(language, mlp.feature_set());
         text += &visible::source(language, mlp.feature_set());
     }
-    Ok(text)
+    text += &calls::source(language, mlp.feature_set());
+    let guard = include_guard(mlp.name());
+    let text = match language {
+        Language::Wgsl => text,
+        // A second inclusion is none. GLSL ES has no default precision in fragment shaders.
+        Language::Glsl => format!(
+            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n{text}\n#endif\n"
+        ),
+        Language::Hlsl => format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"),
+    };
+    let head = comment(&header(mlp, format, prefix, limit));
+    Ok(match prefix {
+        Some(prefix) => head + &prefix.apply(&text),
+        None => head + &text,
+    })
+}
+
+/// The macro that tells whether a network's include file is there already.
+pub(super) fn include_guard(network: &str) -> String {
+    let word: String = network
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_uppercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    // Two underscores are for compilers.
+    let parts: Vec<&str> = word.split('_').filter(|part| !part.is_empty()).collect();
+    format!("NMT_INCLUDED_{}", parts.join("_"))
+}
+
+/// Which network it is, where it comes from and how accurate it is.
+pub(super) fn short_header(mlp: &Mlp) -> Vec<String> {
+    let kept = ["Neural", PRUNED, "Provenance", "Measured"];
+    let lines = header(mlp, Format::WGSL, None, None);
+    lines
+        .into_iter()
+        .filter(|line| kept.iter().any(|head| line.starts_with(head)))
+        .collect()
 }
 
 /// Lines as a comment, and an empty line behind it.
@@ -287,7 +328,7 @@ pub(super) fn comment(lines: &[String]) -> String {
 }
 
 /// What the file is, what to feed it and what to expect.
-pub(super) fn header(mlp: &Mlp, format: Format, limit: Option<f32>) -> Vec<String> {
+pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: Option<f32>) -> Vec<String> {
     let set = mlp.feature_set();
     let mut lines = vec![
         format!(
@@ -301,6 +342,7 @@ pub(super) fn header(mlp: &Mlp, format: Format, limit: Option<f32>) -> Vec<Strin
             Form::Packed => "Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.".to_owned(),
         },
     ];
+    lines.extend(prefix.map(Prefix::line));
     if format.language() == Some(Language::Hlsl) {
         lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
     }
@@ -700,7 +742,7 @@ mod tests {
                     match Format::new(target, form, precision) {
                         Ok(format) => insta::assert_snapshot!(
                             format!("{form_name}_{language}{suffix}"),
-                            source(&mlp, format).unwrap()
+                            source(&mlp, format, None).unwrap()
                         ),
                         Err(error) => assert!(language == "glsl" && suffix == "_f16", "{error}"),
                     }
