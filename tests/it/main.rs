@@ -7,4 +7,5 @@ mod fuzz;
 mod layers;
 mod python;
 mod report;
+mod shader_folder;
 mod shaders;
