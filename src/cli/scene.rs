@@ -5,7 +5,7 @@ use super::{Verdict, keep_inputs};
 use crate::numeric::file::{Replace, may_write};
 use crate::oit::Context;
 use crate::pixel::{CameraPlanes, FragmentList};
-use crate::scene::{self, BUILT_IN, Options, SceneError, exr, npz};
+use crate::scene::{self, BUILT_IN, Options, SceneError, SceneFile, exr, npz};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
@@ -14,7 +14,8 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Scene {
-    /// glass-stacks, smoke, hair, foliage, spheres, teapots; or a scene file (.toml), a fragment list (.npz) or a deep image (.exr).
+    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots; or a scene file (.toml), a fragment list
+    /// (.npz) or a deep image (.exr).
     scene: String,
     /// Fragment list to write: .npz, or .exr for a deep image.
     #[arg(long, value_name = "F.npz")]
@@ -86,26 +87,41 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+impl SceneOptions {
+    /// What they change about a scene that is rendered.
+    pub fn for_scene(&self) -> Options {
+        Options {
+            size: self.size,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Whether a name is that of a file which holds fragments, and no scene.
+fn is_list(name: &str) -> bool {
+    let list = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
+    Path::new(name).extension().is_some_and(list) && !BUILT_IN.contains(&name)
+}
+
+/// A scene whose camera can move.
+pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
+    if is_list(name) {
+        bail!(
+            "{name}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene"
+        );
+    }
+    Ok(scene::open(name)?)
+}
+
 /// The fragments of a scene by its name, or of a file.
 pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
-    let path = Path::new(name);
-    let is_list = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
-    if is_list && !BUILT_IN.contains(&name) {
+    if is_list(name) {
         if options.size.is_some() || options.seed.is_some() {
             bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
         }
-        return Ok(scene::read(path)?);
+        return Ok(scene::read(Path::new(name))?);
     }
-    let scene = scene::open(name)?;
-    Ok(scene::build(
-        &scene,
-        &Options {
-            size: options.size,
-            seed: options.seed,
-        },
-    )?)
+    Ok(scene::build(&scene::open(name)?, &options.for_scene())?)
 }
 
 impl Scene {

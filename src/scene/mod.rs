@@ -5,11 +5,13 @@ pub mod exr;
 pub mod file;
 mod mesh;
 pub mod npz;
+pub mod path;
 mod procedural;
 mod raster;
 
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile};
+pub use path::CameraPath;
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
@@ -17,7 +19,15 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 6] = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
+pub const BUILT_IN: [&str; 7] = [
+    "glass-stacks",
+    "smoke",
+    "hair",
+    "foliage",
+    "spheres",
+    "sphere-cluster",
+    "teapots",
+];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
 pub const MAX_FRAGMENTS: u64 = 1 << 28;
@@ -187,6 +197,7 @@ mod tests {
             ("hair", 151),
             ("foliage", 10),
             ("spheres", 6),
+            ("sphere-cluster", 16),
             ("teapots", 6),
         ] {
             let list = small(name, 128, 1);

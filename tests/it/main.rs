@@ -5,6 +5,7 @@ mod cli;
 mod docs;
 mod fuzz;
 mod layers;
+mod over_time;
 mod python;
 mod report;
 mod shader_folder;
