@@ -1,6 +1,7 @@
 //! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the documentation, and an
 //! independent reader.
 
+mod bench_gpu;
 mod cli;
 mod docs;
 mod fuzz;
