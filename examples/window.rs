@@ -5,8 +5,8 @@
 //! cargo run --release --example window -- spheres --picture spheres.png      # the same without a window
 //! ```
 //!
-//! What is the renderer's own is short: [`VERTEX`] hands v on, [`Renderer`] makes three targets for pass 1 and one for pass 2, and draws
-//! the transparent triangles twice between the opaque ones and the resolve.
+//! What is the renderer's own is short: [`VERTEX`] hands v on, [`Renderer`] makes three targets for pass 1 and one for
+//! pass 2, and draws the transparent triangles twice between the opaque ones and the resolve.
 
 use nmt::scene::{self, BUILT_IN, Geometry};
 use std::sync::Arc;

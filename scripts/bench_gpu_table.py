@@ -43,8 +43,8 @@ def table(found, adapter):
     if SOFTWARE.search(adapter):
         lines += ["**A software adapter: it runs on the CPU, and its times are no graphics card's.**", ""]
     lines += [
-        f"{machine['cpu']}, {machine['os']}, nmt {first['version']}. Medians in milliseconds; raw samples lie beside this file. Made by",
-        "`scripts/bench-gpu`.",
+        f"{machine['cpu']}, {machine['os']}, nmt {first['version']}. Medians in milliseconds; raw samples lie beside",
+        "this file. Made by `scripts/bench-gpu`.",
         "",
     ]
     sizes = sorted({size for _, _, size in found}, key=lambda size: int(size.split("x")[0]))

@@ -1,9 +1,11 @@
-//! Pass 1, pass 2 and the resolve in one call each, with a vector for every render target: what stands behind the functions of an export.
+//! Pass 1, pass 2 and the resolve in one call each, with a vector for every render target: what stands behind the
+//! functions of an export.
 
 use super::shader::Language;
 use crate::features::{FeatureSet, MomentDepthKind};
 
-/// Render targets of four numbers that hold sums and the number of fragments; the target of the range comes behind them.
+/// Render targets of four numbers that hold sums and the number of fragments; the target of the range comes behind
+/// them.
 pub fn targets(set: FeatureSet) -> usize {
     (set.moments() + 2).div_ceil(4)
 }

@@ -104,7 +104,8 @@ impl Target {
     }
 }
 
-/// A form in which a network leaves the program: a target, a layout of the weights and a precision that it is offered in.
+/// A form in which a network leaves the program: a target, a layout of the weights and a precision that it is offered
+/// in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Format {
     target: Target,

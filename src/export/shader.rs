@@ -1,4 +1,5 @@
-//! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
+//! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16,
+//! through one emitter.
 
 use super::{ExportError, Form, Format, Precision, Prefix, calls, recentred, visible};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE, MomentDepthKind};
@@ -124,7 +125,8 @@ impl Numbers {
         }
     }
 
-    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but HLSL's rows.
+    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but
+    /// HLSL's rows.
     fn product(self, block: &str, activations: &str) -> String {
         match self.language {
             Language::Wgsl | Language::Glsl => format!("{block} * {activations}"),
@@ -167,8 +169,9 @@ fn shortest_half(x: f32) -> f32 {
         .unwrap_or(half as f32)
 }
 
-/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
-/// bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
+/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random
+/// rows of the training distribution: f16 keeps 11 bits of a sum, and a logit that is off by 0.02 beside great
+/// absorbance is rare, but there.
 pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
     match set {
         FeatureSet::Paper | FeatureSet::DeepWeightedBlended => (1e-1, 2e-3),
@@ -179,7 +182,8 @@ pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
 /// Greatest finite f16.
 const MAX_HALF: f64 = 65504.0;
 
-/// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered and rounded, none overflows.
+/// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered
+/// and rounded, none overflows.
 ///
 /// # Errors
 /// [`ExportError::Half`] where a weight does not fit, or features of the usual size could overflow.
@@ -457,7 +461,8 @@ pub(crate) fn biases_are_folded(dense: &Dense) -> bool {
     !dense.inputs().is_multiple_of(4)
 }
 
-/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, input by input; missing ones are 0, and the biases stand at the first missing input.
+/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, input by input; missing ones are 0, and the biases stand
+/// at the first missing input.
 pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
     std::array::from_fn(|column| {
         std::array::from_fn(|row| {

@@ -50,14 +50,14 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
     let guard = shader::include_guard(mlp.name());
     let guard = prefix.map_or(guard.clone(), |prefix| prefix.apply(&guard));
     let more = [
-        "Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
+        "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
     ];
     let head = shader::comment(&header(mlp, format, prefix, &more)?);
     Ok(format!("{head}#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"))
 }
 
-/// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0 are buffer 0; textures have
-/// the index of their binding.
+/// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0
+/// are buffer 0; textures have the index of their binding.
 ///
 /// # Errors
 /// naga's words.
@@ -99,7 +99,8 @@ pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
 fn msl(wgsl: &str, options: &back::msl::Options) -> Result<String, String> {
     let (module, info) = parse_wgsl(wgsl)?;
     let options = back::msl::Options {
-        lang_version: (2, 0),
+        // The first that knows an invariant position.
+        lang_version: (2, 1),
         ..options.clone()
     };
     let (text, _) =
@@ -199,7 +200,8 @@ fn {name}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
     text
 }
 
-/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an OpString.
+/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an
+/// OpString.
 ///
 /// # Errors
 /// [`ExportError`].

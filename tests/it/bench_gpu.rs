@@ -20,7 +20,8 @@ fn results(path: &Path) -> Vec<Value> {
     json["results"].as_array().unwrap().clone()
 }
 
-/// Every shipped network and every method that has a shader has a row with its median. Control: a scene that is none leaves no folder.
+/// Every shipped network and every method that has a shader has a row with its median. Control: a scene that is none
+/// leaves no folder.
 #[test]
 #[cfg(unix)]
 fn a_short_run_makes_a_table() {

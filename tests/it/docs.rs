@@ -1,4 +1,5 @@
-//! The code in docs/integration.md: every block compiles behind the export that the page names. Its Rust is run as documentation tests.
+//! The code in docs/integration.md: every block compiles behind the export that the page names. Its Rust is run as
+//! documentation tests.
 
 use nmt::export::{Format, encode};
 use nmt::model::file;
@@ -68,7 +69,8 @@ fn glslang(stage: &str, source: &str) -> std::io::Result<Result<(), String>> {
     })
 }
 
-/// In GLSL 4.50 and ES 3.00: functions in fragment shaders, and the vertex shader. Control: a vertex shader without its first line.
+/// In GLSL 4.50 and ES 3.00: functions in fragment shaders, and the vertex shader. Control: a vertex shader without its
+/// first line.
 #[test]
 fn glsl_compiles() {
     let (export, page) = (export(Format::GLSL), page());

@@ -78,7 +78,8 @@ test("ANGLE compiles and links every pass in GLSL ES 3.00, and no broken one", a
           return gl.getShaderInfoLog(shader);
         });
         gl.linkProgram(program);
-        return gl.getProgramParameter(program, gl.LINK_STATUS) ? "" : `${name}: ${logs} ${gl.getProgramInfoLog(program)}`;
+        const linked = gl.getProgramParameter(program, gl.LINK_STATUS);
+        return linked ? "" : `${name}: ${logs} ${gl.getProgramInfoLog(program)}`;
       });
     },
     [...pairs, ["broken", surface, broken]],
@@ -90,7 +91,8 @@ test("ANGLE compiles and links every pass in GLSL ES 3.00, and no broken one", a
 test("WESL links networks by their names, two into one module, and Tint reads the result", async () => {
   const module = (network) => text(network, `${network}.wgsl`);
   const linked = async (main) => {
-    const weslSrc = { "./main.wesl": main, "./recommended.wgsl": module("recommended"), "./small.wgsl": module("small") };
+    const modules = { "./recommended.wgsl": module("recommended"), "./small.wgsl": module("small") };
+    const weslSrc = { "./main.wesl": main, ...modules };
     return (await link({ weslSrc, rootModuleName: "main" })).dest;
   };
   const main = `
@@ -111,7 +113,8 @@ test("WESL links networks by their names, two into one module, and Tint reads th
     return info.messages.filter((m) => m.type === "error").map((m) => m.message);
   }, code);
   assert.deepEqual(errors, []);
-  await assert.rejects(linked(main.replace("small::nmt_pass2", "small::nmt_pass3")), "the control: a function that is not there");
+  const wrong = linked(main.replace("small::nmt_pass2", "small::nmt_pass3"));
+  await assert.rejects(wrong, "the control: a function that is not there");
 });
 
 /**
@@ -122,7 +125,8 @@ function sorted({ scene, matrix, background }, width, height, order) {
   const image = new Float32Array(3 * width * height);
   const counts = new Uint32Array(width * height);
   const clear = new Uint8Array(width * height).fill(1);
-  const clip = (p) => [0, 1, 2, 3].map((r) => matrix[r] * p[0] + matrix[4 + r] * p[1] + matrix[8 + r] * p[2] + matrix[12 + r]);
+  const row = (r, [x, y, z]) => matrix[r] * x + matrix[4 + r] * y + matrix[8 + r] * z + matrix[12 + r];
+  const clip = (p) => [0, 1, 2, 3].map((r) => row(r, p));
   const triangles = scene.map(({ corners, paint }) => {
     const q = corners.map(clip);
     const at = q.map((c) => [(c[0] / c[3] / 2 + 0.5) * width, (c[1] / c[3] / 2 + 0.5) * height, 1 / c[3]]);
@@ -134,7 +138,8 @@ function sorted({ scene, matrix, background }, width, height, order) {
       const hits = [];
       for (const { at, paint } of triangles) {
         const edge = (a, b) => (b[0] - a[0]) * (py - a[1]) - (b[1] - a[1]) * (px - a[0]);
-        const area = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]);
+        const [[ax, ay], [bx, by], [cx, cy]] = at;
+        const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
         const parts = [edge(at[1], at[2]), edge(at[2], at[0]), edge(at[0], at[1])].map((e) => e / area);
         // Which pixels an edge goes through, rasterisers may see otherwise by a 256th of a pixel.
         const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -142,7 +147,8 @@ function sorted({ scene, matrix, background }, width, height, order) {
         const slack = ((4 / 256) * edges) / Math.abs(area);
         const least = Math.min(...parts);
         if (Math.abs(least) < slack) clear[y * width + x] = 0;
-        if (least > 0) hits.push({ v: 1 / parts.reduce((sum, part, i) => sum + part * at[i][2], 0), paint });
+        const inverse = parts.reduce((sum, part, i) => sum + part * at[i][2], 0);
+        if (least > 0) hits.push({ v: 1 / inverse, paint });
       }
       // Nor which of two surfaces lies in front where one goes through the other.
       const depths = hits.map((hit) => hit.v).sort((a, b) => a - b);
@@ -170,7 +176,8 @@ test("the sample in WebGL 2 is the sorted image where closed forms are exact, an
       gl.readPixels(0, 0, gl.canvas.width, gl.canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
       return { scene, matrix: [...camera(angle)], background, bytes: [...bytes] };
     }, angle);
-    const image = Float32Array.from({ length: 3 * width * height }, (_, i) => shown.bytes[4 * Math.floor(i / 3) + (i % 3)] / 255);
+    const channel = (i) => shown.bytes[4 * Math.floor(i / 3) + (i % 3)] / 255;
+    const image = Float32Array.from({ length: 3 * width * height }, (_, i) => channel(i));
     const truth = sorted(shown, width, height, "sorted");
     const unsorted = sorted(shown, width, height, "as drawn").image;
     // Pixels that no edge goes through: of up to three fragments, and of more.
@@ -184,7 +191,8 @@ test("the sample in WebGL 2 is the sorted image where closed forms are exact, an
     const exact = compare(of(image, few), of(truth.image, few), 1.5 / 255);
     const near = compare(of(image, many), of(truth.image, many), 8 / 255);
     const control = compare(of(unsorted, many), of(truth.image, many), 8 / 255);
-    console.log(`angle ${angle}: up to three fragments worst ${exact.worst.toFixed(4)}; more MSE ${near.mse.toExponential(2)}, unsorted ${control.mse.toExponential(2)}`);
+    const [mse, unsortedMse] = [near.mse, control.mse].map((e) => e.toExponential(2));
+    console.log(`${angle}: up to three, worst ${exact.worst.toFixed(4)}; more, MSE ${mse}, unsorted ${unsortedMse}`);
     assert.equal(exact.share, 1, `worst ${exact.worst}`);
     assert.ok(near.mse < control.mse / 20, `${near.mse} against ${control.mse} unsorted`);
   }
