@@ -1,10 +1,12 @@
-//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the documentation, and an
-//! independent reader.
+//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the
+//! documentation, and an independent reader.
 
 mod bench_gpu;
 mod cli;
+#[path = "../common/mod.rs"]
+mod common;
 mod docs;
-mod fuzz;
+mod documents;
 mod layers;
 mod over_time;
 mod python;
