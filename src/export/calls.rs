@@ -29,8 +29,19 @@ fn channel_name(set: FeatureSet, number: usize) -> String {
     }
 }
 
-/// Source of the calls of a feature set; none where it has no passes.
+/// Whether a set's answer is a transmittance that pass 2 makes of blended sums alone.
+pub fn has_passes(set: FeatureSet) -> bool {
+    matches!(
+        set,
+        FeatureSet::Paper | FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
+    )
+}
+
+/// Source of the calls of a feature set; none where it has no such passes.
 pub fn source(language: Language, set: FeatureSet) -> String {
+    if !has_passes(set) {
+        return String::new();
+    }
     let text = match (language, set.moment_depth()) {
         (Language::Wgsl, MomentDepthKind::Log) => include_str!("calls/recentred.wgsl"),
         (Language::Glsl, MomentDepthKind::Log) => include_str!("calls/recentred.glsl"),

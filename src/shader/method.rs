@@ -44,6 +44,11 @@ impl MethodShader {
                     "its answer is a blending weight, and has no place in these passes".to_owned(),
                 ));
             }
+            _ => {
+                return Err(refused(
+                    "its core needs a buffer of slots, which these passes do not have".to_owned(),
+                ));
+            }
         };
         Ok(Self {
             sums: set.moments() + 1,
