@@ -6,6 +6,7 @@
 //! HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
 pub mod calls;
+pub mod core;
 pub mod dialect;
 pub mod files;
 pub mod format;

@@ -4,6 +4,8 @@
 //! visibly or fails.
 
 pub mod compute;
+#[cfg(test)]
+mod core;
 pub mod device;
 pub mod list;
 pub mod pipeline;
