@@ -1,5 +1,6 @@
 //! A headless GPU device: buffers in, dispatches timed, buffers out.
 
+use crate::shader::ShaderError;
 use bytemuck::Pod;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -62,6 +63,13 @@ pub enum GpuError {
     },
 }
 
+impl From<ShaderError> for GpuError {
+    fn from(error: ShaderError) -> Self {
+        let ShaderError { label, reason } = error;
+        Self::Source { label, reason }
+    }
+}
+
 /// Features that are taken where the adapter has them.
 const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
     .union(wgpu::Features::FLOAT32_BLENDABLE)
@@ -102,8 +110,8 @@ pub fn groups(invocations: u64) -> [u32; 2] {
 }
 
 impl Gpu {
-    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else the most powerful; OpenGL's only where
-    /// there is no other.
+    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else
+    /// the most powerful; OpenGL's only where there is no other.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::NoDevice`].
@@ -256,16 +264,21 @@ impl Gpu {
     /// Checks that a storage buffer may be so large.
     fn fits(&self, what: &'static str, bytes: u64) -> Result<u64, GpuError> {
         let limits = self.device.limits();
-        let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        if bytes > most {
-            Err(GpuError::TooLarge {
-                adapter: self.name(),
-                what,
-                bytes,
-                most,
-            })
+        if bytes > limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) {
+            Err(self.too_large(what, bytes))
         } else {
             Ok(bytes.max(16).next_multiple_of(4))
+        }
+    }
+
+    /// What is said of data that no buffer holds.
+    pub(super) fn too_large(&self, what: &'static str, bytes: u64) -> GpuError {
+        let limits = self.device.limits();
+        GpuError::TooLarge {
+            adapter: self.name(),
+            what,
+            bytes,
+            most: limits.max_buffer_size.min(limits.max_storage_buffer_binding_size),
         }
     }
 
@@ -412,13 +425,15 @@ impl Gpu {
 
     /// Whether [`Self::timed`] reads timestamps of the device, rather than the clock.
     ///
-    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before it has run.
+    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before
+    /// it has run.
     pub fn stamps(&self) -> bool {
         self.has_timestamps() && !self.is_software()
     }
 
-    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by timestamps of the device, or where
-    /// those are missing or not to be trusted by the clock around each, which is then submitted and waited for by itself.
+    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by
+    /// timestamps of the device, or where those are missing or not to be trusted by the clock around each, which is
+    /// then submitted and waited for by itself.
     ///
     /// # Errors
     /// [`GpuError::Refused`].
