@@ -2,13 +2,13 @@
 
 use super::{BenchError, Plan, Summary, calls_that_fill};
 use crate::evaluate::{EvaluateError, Truth};
-use crate::export::Format;
+use crate::export::{Format, Precision};
 use crate::features::FeatureSet;
-use crate::gpu::list::{DeviceList, Passes};
-use crate::gpu::method::Composite;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::list::Passes;
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
 use crate::oit::neural::{Neural, Skip};
+use crate::oit::shader::Composite;
 use crate::oit::{self, Accumulated, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
@@ -433,7 +433,7 @@ impl Setting<'_> {
         let mut shaders = vec![(MethodShader::empty(NONE), none)];
         for candidate in candidates {
             match candidate {
-                Candidate::Method(method) => match MethodShader::classic(&method.name()) {
+                Candidate::Method(method) => match method.shader() {
                     Some(shader) => {
                         let (bits, transmittance) = (method.bits_per_pixel(), method.weights_are_transmittance());
                         shaders.push((
@@ -541,7 +541,7 @@ impl Setting<'_> {
 }
 
 fn is_half(format: Format) -> bool {
-    matches!(format, Format::WgslF16 | Format::WgslPlainF16)
+    format.precision() == Precision::F16
 }
 
 /// What a shader does not say of its method.
@@ -717,7 +717,7 @@ mod tests {
             skip: Skip::Exact,
         };
         let table = setting
-            .on_gpu(gpu, &candidates(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
+            .on_gpu(gpu, &candidates(), &[Format::WGSL, Format::WGSL_PLAIN], &|_| {})
             .unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
         assert!(

@@ -10,14 +10,15 @@ use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_
 use crate::evaluate::{MethodResult, OverTime, Truth, over_time};
 use crate::export::Format;
 use crate::features::MomentFrame;
-use crate::gpu::pipeline::TargetPrecision;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::{Gpu, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
-use crate::oit::{Context, Method, all_names, parse};
+use crate::oit::{Context, Method, all_names, parse, shader_of};
 use crate::pixel::FragmentList;
 use crate::scene::CameraPath;
+use crate::shader::ShaderError;
+use crate::shader::passes::TargetPrecision;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -103,7 +104,7 @@ struct Asked {
     /// Whether `--skip` is for it: a network of `--model`.
     skips: bool,
     /// What the GPU runs; none where there is no shader for it.
-    shader: Option<Result<MethodShader, GpuError>>,
+    shader: Option<Result<MethodShader, ShaderError>>,
 }
 
 /// The file that holds all numbers.
@@ -270,7 +271,7 @@ impl Evaluate {
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
+        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::WGSL));
         for name in &self.methods {
             let (names, demanded) = if name == "all" {
                 (all_names(), false)
@@ -283,7 +284,7 @@ impl Evaluate {
                     let shader = match name.strip_prefix("neural:") {
                         _ if !self.gpu => None,
                         Some(path) => Some(shader(Path::new(path))?),
-                        None => MethodShader::classic(&name).map(Ok),
+                        None => shader_of(&name).map(Ok),
                     };
                     methods.push(Asked {
                         method,

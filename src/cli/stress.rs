@@ -7,7 +7,7 @@ use crate::features::{FeatureSet, MomentFrame};
 use crate::gpu::{self, Gpu, MethodShader};
 use crate::model::{Mlp, file};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
-use crate::oit::{Method, all_names, parse};
+use crate::oit::{Method, all_names, parse, shader_of};
 use crate::stress::bias::{self, BiasPoint, Kept};
 use crate::stress::plot::{Chart, Line};
 use crate::stress::random::{Counts, hunt};
@@ -251,7 +251,7 @@ impl Stress {
             .filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended)
         {
             let promise = Subject::network(mlp, Execution::default())?.promise;
-            let shader = MethodShader::neural(mlp, Format::Wgsl)?;
+            let shader = MethodShader::neural(mlp, Format::WGSL)?;
             subjects.push(
                 Subject::new(format!("{} @ {}", shader.name, gpu.name()), promise, run(shader))
                     .with_network_as_double(mlp),
@@ -265,7 +265,7 @@ impl Stress {
             }
         }
         for name in names {
-            let Some(shader) = MethodShader::classic(&name) else {
+            let Some(shader) = shader_of(&name) else {
                 continue;
             };
             let promise = if name.ends_with("+own") {

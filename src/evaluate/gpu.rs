@@ -1,12 +1,13 @@
 //! What the GPU makes of a method, beside the CPU's image of it and the exact one.
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, TargetPrecision};
+use crate::gpu::pipeline::{Pipeline, Rendered};
 use crate::gpu::tiles::TilePasses;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::oit::Context;
 use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
+use crate::shader::passes::TargetPrecision;
 use serde::{Deserialize, Serialize};
 
 /// A method's image from the GPU against the CPU's, and against the exact one. In JSON, NaN and infinity become null; the count says why.
@@ -82,20 +83,13 @@ fn render(
     skip: Skip,
 ) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
+    let list = DeviceList::new(gpu, list)?;
     if !is_drawn(gpu, storage) {
-        let passes = TilePasses::new(gpu, list, method, range, background)?;
+        let passes = TilePasses::new(gpu, &list, method, range, background)?;
         passes.run(gpu, skip)?;
         return passes.render(gpu, skip);
     }
-    let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(
-        gpu,
-        &drawing,
-        &method.clone().with_skip(skip),
-        range,
-        background,
-        storage,
-    )?;
+    let pipeline = Pipeline::new(gpu, &list, &method.clone().with_skip(skip), range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
 }
@@ -203,7 +197,7 @@ mod tests {
         let list = colored_list(40, 30);
         let truth = Truth::new(&list, [0.2, 0.4, 1.0]);
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
-        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
+        let method = MethodShader::neural(&mlp, Format::WGSL).unwrap();
         let cpu = truth
             .judge(&Neural::new(mlp), Context::default())
             .unwrap()

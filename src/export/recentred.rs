@@ -1,6 +1,7 @@
 //! Shader source of the recentred features: the twin of [`crate::features::recentred`], unrolled for the number of moments.
 
-use super::shader::{Language, Numbers, Precision, SHARE};
+use super::Precision;
+use super::shader::{Language, Numbers, SHARE};
 use crate::features::FeatureSet;
 use crate::features::recentred::{
     ABSORBANCE_OFFSET, ARITHMETIC, ByCount, INNER_MEAN_DEVIATION, INNER_SPREAD_DEVIATION, INNER_SPREAD_OF_OFFSET,

@@ -1,7 +1,8 @@
 //! Shader source of what cannot be seen: the twin of [`crate::features::visible`], behind the function that answers everything.
 
+use super::Precision;
 use super::recentred::{PASS2_PARAMETERS, ROUNDING, Writer, pass2_parameters, recentred_moments};
-use super::shader::{Language, Numbers, Precision};
+use super::shader::{Language, Numbers};
 use crate::features::FeatureSet;
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::visible::{FAINT, HIDDEN, MIN_HIDING, ORDER};

@@ -1,5 +1,6 @@
 //! A headless GPU device: buffers in, dispatches timed, buffers out.
 
+use crate::shader::ShaderError;
 use bytemuck::Pod;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -60,6 +61,13 @@ pub enum GpuError {
         /// Why.
         reason: String,
     },
+}
+
+impl From<ShaderError> for GpuError {
+    fn from(error: ShaderError) -> Self {
+        let ShaderError { label, reason } = error;
+        Self::Source { label, reason }
+    }
 }
 
 /// Features that are taken where the adapter has them.
@@ -256,16 +264,21 @@ impl Gpu {
     /// Checks that a storage buffer may be so large.
     fn fits(&self, what: &'static str, bytes: u64) -> Result<u64, GpuError> {
         let limits = self.device.limits();
-        let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        if bytes > most {
-            Err(GpuError::TooLarge {
-                adapter: self.name(),
-                what,
-                bytes,
-                most,
-            })
+        if bytes > limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) {
+            Err(self.too_large(what, bytes))
         } else {
             Ok(bytes.max(16).next_multiple_of(4))
+        }
+    }
+
+    /// What is said of data that no buffer holds.
+    pub(super) fn too_large(&self, what: &'static str, bytes: u64) -> GpuError {
+        let limits = self.device.limits();
+        GpuError::TooLarge {
+            adapter: self.name(),
+            what,
+            bytes,
+            most: limits.max_buffer_size.min(limits.max_storage_buffer_binding_size),
         }
     }
 

@@ -181,12 +181,16 @@ pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
     Ok(mlp)
 }
 
-/// Reads a model file.
+/// Reads a model file; where there is none at the path, and it is the name of a shipped network, that network.
 ///
 /// # Errors
 /// [`ModelError`] names the file, the place and the remedy.
 pub fn load(path: &Path) -> Result<Mlp, ModelError> {
-    from_json(&read(path)?, path)
+    match (read(path), path.to_str().and_then(super::shipped::json)) {
+        (Ok(bytes), _) => from_json(&bytes, path),
+        (Err(_), Some(json)) => from_json(json.as_bytes(), path),
+        (Err(error), None) => Err(error.into()),
+    }
 }
 
 /// Writes a model file.

@@ -15,6 +15,7 @@ pub mod moment_trig;
 pub mod multi_layer_alpha;
 pub mod neural;
 pub mod registry;
+pub mod shader;
 #[cfg(test)]
 mod testing;
 pub mod two_moment_passes;
@@ -22,7 +23,8 @@ pub mod weighted_average;
 pub mod weighted_blended;
 pub mod weighted_sum;
 
-pub use registry::{ParseError, all_names, parse};
+pub use registry::{ParseError, all_names, names_with_shader, parse, shader_of};
+pub use shader::MethodShader;
 
 use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};
 use std::convert::Infallible;
@@ -75,6 +77,17 @@ pub trait Method: Send + Sync {
     /// Whether its weights are transmittances, so that an error of T can be stated.
     fn weights_are_transmittance(&self) -> bool {
         true
+    }
+
+    /// Its twin on a GPU, where it has one.
+    ///
+    /// Moments are f32 there, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the CPU's, which are f64 after pass 1,
+    /// all arithmetic is f32.
+    ///
+    /// # Accuracy
+    /// Against the CPU's method on the same f32 moments: `gpu::twins::twins_answer_as_on_the_cpu`.
+    fn shader(&self) -> Option<MethodShader> {
+        None
     }
 
     /// Pass 1: goes over all fragments of a list, in the order in which they stand there.

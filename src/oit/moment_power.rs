@@ -1,7 +1,7 @@
 //! Moment-based transparency with power moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
@@ -96,6 +96,20 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
             // Sha18 Table 1: the single-precision target of pass 1 and the quantities beside it.
             MomentStorage::Nlqm => (32 + 16) * M as u32,
         }
+    }
+
+    fn shader(&self) -> Option<MomentShader> {
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32);
+        let powers: Vec<String> = (1..M).map(|i| format!("let b{i} = b{} * f.z;", i - 1)).collect();
+        let moments: Vec<String> = (0..M).map(|i| format!("b{i}")).collect();
+        f32s.then(|| MomentShader {
+            sums: M,
+            curve_source: include_str!("../moments/hamburger.wgsl"),
+            curve: format!("power_transmittance_{}", 2 * N),
+            accumulate: include_str!("power_moments.wgsl")
+                .replace("OIT_POWERS", &powers.join("\n    "))
+                .replace("OIT_MOMENTS", &moments.join(", ")),
+        })
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; M] {

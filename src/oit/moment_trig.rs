@@ -1,7 +1,7 @@
 //! Moment-based transparency with trigonometric moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::MomentStorage;
@@ -71,6 +71,21 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     /// MKKP18 Table 1: 224 and 112 bits for three moments, 288 and 144 for four.
     fn moment_bits(&self) -> u32 {
         (if self.storage == MomentStorage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
+    }
+
+    fn shader(&self) -> Option<MomentShader> {
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32);
+        let power = |i| format!("let b{i} = complex_times(b{}, x);", i - 1);
+        let powers: Vec<String> = (2..=M).map(power).collect();
+        let moments: Vec<String> = (1..=M).map(|i| format!("b{i}.x, b{i}.y")).collect();
+        f32s.then(|| MomentShader {
+            sums: 2 * M + 1,
+            curve_source: include_str!("../moments/trigonometric.wgsl"),
+            curve: format!("trigonometric_transmittance_{M}"),
+            accumulate: include_str!("trigonometric_moments.wgsl")
+                .replace("OIT_POWERS", &powers.join("\n    "))
+                .replace("OIT_MOMENTS", &moments.join(", ")),
+        })
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments {

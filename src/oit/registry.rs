@@ -1,7 +1,7 @@
 //! Methods by their names on the command line.
 
 use super::{
-    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
+    Method, MethodShader, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
     low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
     two_moment_passes, weighted_average, weighted_blended, weighted_sum,
 };
@@ -172,6 +172,17 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
 /// The names that stand for all methods, every one of which [`parse`] takes.
 pub fn all_names() -> Vec<String> {
     entries().flat_map(|e| (e.names)(e.head)).collect()
+}
+
+/// The GPU twin of a method by its name; none where the name is no method's, or the method has no twin.
+pub fn shader_of(name: &str) -> Option<MethodShader> {
+    parse(name).ok()?.shader()
+}
+
+/// Names of the methods that have a GPU twin. Where names differ in the CPU's storage alone, the shortest stands for all.
+pub fn names_with_shader() -> Vec<String> {
+    let names = all_names().into_iter().filter(|name| !name.contains(":f32"));
+    names.filter(|name| shader_of(name).is_some()).collect()
 }
 
 #[cfg(test)]

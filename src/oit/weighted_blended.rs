@@ -1,7 +1,9 @@
 //! McGuire and Bavoil's weighted blended transparency: a fixed function of depth and opacity stands in for the transmittance.
 
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError};
+use crate::features::MomentDepthKind;
 use crate::pixel::{CameraPlanes, DepthError, FragmentList, ViewZ};
 
 /// Its name on the command line; `weighted-blended:WEIGHT` chooses a weight, by default that of [`Weight::default`].
@@ -143,6 +145,22 @@ impl Method for WeightedBlended {
     /// They only fall with depth as transmittance does.
     fn weights_are_transmittance(&self) -> bool {
         false
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        let depth = match self.weight {
+            Weight::Mb13Eq10 => MomentDepthKind::Window,
+            _ => MomentDepthKind::None,
+        };
+        let function = format!("weight_{}", self.weight.name().replace('-', "_"));
+        let weight = include_str!("weighted_blended_weight.wgsl").replace("OIT_FUNCTION", &function);
+        let source = format!("{}{weight}", include_str!("weighted_blended.wgsl"));
+        Some(MethodShader::of_total(
+            self.name(),
+            depth,
+            Composite::Normalised,
+            &source,
+        ))
     }
 
     fn accumulate<'a>(

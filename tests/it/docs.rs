@@ -37,7 +37,7 @@ fn wgsl(source: &str) -> Result<(), String> {
 /// Control: with a function of the export misspelt, no block that calls it compiles.
 #[test]
 fn wgsl_compiles() {
-    let (export, blocks) = (export(Format::Wgsl), blocks(&page(), "wgsl"));
+    let (export, blocks) = (export(Format::WGSL), blocks(&page(), "wgsl"));
     assert_eq!(blocks.len(), 3, "pass 1, pass 2, resolve");
     for block in &blocks {
         wgsl(&format!("{export}\n{block}")).unwrap();
@@ -69,7 +69,7 @@ fn glslang(source: &str) -> std::io::Result<Result<(), String>> {
 /// Control: as for WGSL.
 #[test]
 fn glsl_compiles() {
-    let (export, blocks) = (export(Format::Glsl), blocks(&page(), "glsl"));
+    let (export, blocks) = (export(Format::GLSL), blocks(&page(), "glsl"));
     assert_eq!(blocks.len(), 3, "pass 1, pass 2, resolve");
     let whole = |block: &str| format!("#version 450\n{export}\n{block}");
     if let Err(why) = glslang(&whole(&blocks[0])) {

@@ -11,11 +11,11 @@ use crate::cli::ui::{Ui, machine, report, table};
 use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
 use crate::export::Format;
-use crate::gpu::{Gpu, classic};
+use crate::gpu::Gpu;
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
-use crate::oit::{all_names, parse};
+use crate::oit::{all_names, names_with_shader, parse};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -62,7 +62,12 @@ enum Device {
     Gpu,
 }
 
-const FORMATS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::WgslF16, Format::WgslPlainF16];
+const FORMATS: [Format; 4] = [
+    Format::WGSL,
+    Format::WGSL_PLAIN,
+    Format::WGSL_F16,
+    Format::WGSL_PLAIN_F16,
+];
 
 /// The file that holds all numbers.
 const RESULTS: &str = "results.json";
@@ -192,7 +197,7 @@ impl BenchMethods {
         for name in &self.methods {
             let names = match name.as_str() {
                 "all" => all_names(),
-                "shaders" => classic::NAMES.map(str::to_owned).to_vec(),
+                "shaders" => names_with_shader(),
                 _ => vec![name.clone()],
             };
             let by_name = !matches!(name.as_str(), "all" | "shaders");
@@ -245,7 +250,7 @@ fn picture(device: Device) -> String {
 fn label(cost: &Cost) -> String {
     let name = cost.method.strip_prefix("neural:").unwrap_or(&cost.method);
     match cost.format {
-        Some(format) if format != Format::Wgsl.name() => format!("{name} ({format})"),
+        Some(format) if format != Format::WGSL.name() => format!("{name} ({format})"),
         _ => name.to_owned(),
     }
 }

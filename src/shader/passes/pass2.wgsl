@@ -8,6 +8,6 @@ fn oit_pixel(at: vec2<i32>) -> OitPixel {
 @fragment
 fn oit_pass2(f: OitVarying) -> @location(0) vec4<f32> {
     let seen = oit_seen(f);
-    let weight = seen.alpha * oit_weight(seen, oit_pixel(vec2<i32>(f.position.xy)));
+    let weight = seen.alpha * OIT_WEIGHT(seen, oit_pixel(vec2<i32>(f.position.xy)));
     return vec4<f32>(weight * f.color.rgb, weight);
 }

@@ -14,7 +14,7 @@
     let behind = exp(-state.sums[0]);
     let end = oit_offsets[pixel + 1u];
     var i = oit_offsets[pixel];
-    var asked = 0.0;
+    var evaluated = 0.0;
     loop {
         // On to the next fragment that may be seen: then all threads have one, and run the network together.
         var f: OitFragment;
@@ -28,7 +28,7 @@
         }
         if (i < end) {
             weighted += oit_weighted(i, f.alpha * oit_weight(f, state));
-            asked += 1.0;
+            evaluated += 1.0;
             i++;
         } else if (cut < 1.0e38 && weighted.a < OIT_LEAST_WEIGHT) {
             // The bound asks for more weight than the network leaves: again, and nothing is hidden.

@@ -1,5 +1,5 @@
 
-@group(0) @binding(8) var<storage, read> oit_lists: array<u32>;
+@group(0) @binding(7) var<storage, read> oit_lists: array<u32>;
 
 // Pixels of one kind, 64 to a workgroup.
 @compute @workgroup_size(64)
@@ -9,8 +9,8 @@ fn oit_listed_pixels(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_inv
         return;
     }
     let pixel = oit_lists[8u + select(index, oit_frame.size.x * oit_frame.size.y - 1u - index, OIT_KIND == 1u)];
-    let state = oit_state(pixel);
+    let state = oit_pixel(pixel);
     var weighted = vec4<f32>(0.0);
     OIT_LOOP
-    oit_finish(pixel, state, weighted, asked);
+    oit_finish(pixel, state, weighted, evaluated);
 }

@@ -3,15 +3,14 @@
 @group(0) @binding(1) var<storage, read> oit_offsets: array<u32>;
 @group(0) @binding(2) var<storage, read> oit_view_z: array<f32>;
 @group(0) @binding(3) var<storage, read> oit_alpha: array<f32>;
-@group(0) @binding(4) var<storage, read_write> oit_sums: array<f32>;
-@group(0) @binding(5) var<storage, read_write> oit_ranges: array<vec4<f32>>;
+@group(0) @binding(4) var<storage, read_write> oit_state: array<vec4<f32>>;
 
-@compute @workgroup_size(8, 8)
-fn oit_accumulate_tiles(@builtin(global_invocation_id) at: vec3<u32>) {
-    if (any(at.xy >= oit_frame.size)) {
+@compute @workgroup_size(64)
+fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let pixel = id.x + id.y * groups.x * 64u;
+    if (pixel >= oit_frame.size.x * oit_frame.size.y) {
         return;
     }
-    let pixel = at.y * oit_frame.size.x + at.x;
     var sums: array<f32, OIT_SUMS>;
     var nearest = 3.0e38;
     var farthest = 0.0;
@@ -24,5 +23,4 @@ fn oit_accumulate_tiles(@builtin(global_invocation_id) at: vec3<u32>) {
         farthest = max(farthest, v);
     }
     OIT_STORE
-    oit_ranges[pixel] = vec4<f32>(f32(oit_offsets[pixel + 1u] - oit_offsets[pixel]), nearest, farthest, 0.0);
 }

@@ -3,7 +3,7 @@
 
 // Workgroups in x, y and z of two indirect dispatches, one a kind; then how many pixels there are of each kind; then room for all pixels, which one kind fills from the
 // front and one from the back.
-@group(0) @binding(8) var<storage, read_write> oit_lists: array<atomic<u32>>;
+@group(0) @binding(7) var<storage, read_write> oit_lists: array<atomic<u32>>;
 
 @compute @workgroup_size(8, 8)
 fn oit_classify(@builtin(global_invocation_id) at: vec3<u32>) {
@@ -15,7 +15,8 @@ fn oit_classify(@builtin(global_invocation_id) at: vec3<u32>) {
         return;
     }
     let pixel = at.y * oit_frame.size.x + at.x;
-    let state = oit_state(pixel);
+    let state = oit_pixel(pixel);
+    let known = OIT_KNOWN;
     OIT_KINDS
     if (!(known || faint)) {
         let index = atomicAdd(&oit_lists[6u + kind], 1u);
@@ -31,7 +32,7 @@ fn oit_classify(@builtin(global_invocation_id) at: vec3<u32>) {
     var weighted = vec4<f32>(0.0);
     for (var i = oit_offsets[pixel]; i < oit_offsets[pixel + 1u]; i++) {
         let f = oit_fragment(i);
-        weighted += oit_weighted(i, f.alpha * OIT_KNOWN);
+        weighted += oit_weighted(i, f.alpha * OIT_WEIGHT);
     }
     oit_finish(pixel, state, weighted, 0.0);
 }
