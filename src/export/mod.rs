@@ -5,6 +5,7 @@
 //! shader compilers copy the array at each access. WGSL, GLSL and HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
 pub mod calls;
+pub mod core;
 pub mod dialect;
 pub mod files;
 pub mod format;

@@ -3,6 +3,8 @@
 //! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips visibly or fails.
 
 pub mod compute;
+#[cfg(test)]
+mod core;
 pub mod device;
 pub mod list;
 pub mod pipeline;

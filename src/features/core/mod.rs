@@ -1,3 +1,4 @@
 //! Core and tail: single fragments of a pixel, stored one by one, and the sums of all others.
 
 pub mod code;
+pub mod shape;
