@@ -49,6 +49,7 @@ impl MethodShader {
             range: true,
             depth: set.moment_depth(),
             composite: Composite::Normalised,
+            core: None,
             offers,
             weight: WEIGHT,
             source: format!("{export}{glue}"),
@@ -75,6 +76,9 @@ impl MethodShader {
 
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
     pub fn module(&self) -> String {
+        if let Some(set) = self.core {
+            return super::core::module(set);
+        }
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
@@ -82,15 +86,17 @@ impl MethodShader {
             MomentDepthKind::Window | MomentDepthKind::None => include_str!("depth_window.wgsl"),
         };
         format!(
-            "{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n",
+            "{}\nconst OIT_SUMS = {}u;\n{}{}{depth}{}\n",
             directives.join("\n"),
             self.sums,
             include_str!("prelude.wgsl"),
+            include_str!("absorbance.wgsl"),
             rest.join("\n")
         )
     }
 
-    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes.
+    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes; or v0 and v1,
+    /// where there is a core.
     ///
     /// # Errors
     /// [`ShaderError`] where planes are needed and unknown.
@@ -100,6 +106,10 @@ impl MethodShader {
         planes: Option<CameraPlanes>,
         depth_range: Option<(f32, f32)>,
     ) -> Result<[f32; 2], ShaderError> {
+        if self.core.is_some() {
+            let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
+            return Ok([v0, v1]);
+        }
         match self.depth {
             MomentDepthKind::Window => {
                 let planes = planes.or(list.planes()).ok_or_else(|| ShaderError {

@@ -4,6 +4,7 @@
 //! lies in files beside the Rust; words in capitals that begin with `OIT_` are filled in.
 
 pub mod compute;
+mod core;
 pub mod method;
 pub mod passes;
 

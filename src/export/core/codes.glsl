@@ -68,6 +68,15 @@ float nmt_core_absorbance(uvec2 steps) {
     return uintBitsToFloat(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
 }
 
+// Moments of a fragment: what pass 1 adds to b1, b2, b3, b4 of its pixel, beside its absorbance to b0.
+vec4 nmt_core_moments(uvec2 steps) {
+    float z = nmt_core_depth(steps);
+    float first = nmt_core_absorbance(steps) * z;
+    float second = first * z;
+    float third = second * z;
+    return vec4(first, second, third, third * z);
+}
+
 // Codes in the three kinds of slots, and back. The greater code stays in a slot.
 uint nmt_core_nearest_code(uvec2 steps) {
     return ((NMT_LAST_DEPTH - steps.x) << NMT_END_BITS) | steps.y;

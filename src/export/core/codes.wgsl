@@ -68,6 +68,15 @@ fn nmt_core_absorbance(steps: vec2<u32>) -> f32 {
     return bitcast<f32>(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
 }
 
+// Moments of a fragment: what pass 1 adds to b1, b2, b3, b4 of its pixel, beside its absorbance to b0.
+fn nmt_core_moments(steps: vec2<u32>) -> vec4<f32> {
+    let z = nmt_core_depth(steps);
+    let first = nmt_core_absorbance(steps) * z;
+    let second = first * z;
+    let third = second * z;
+    return vec4<f32>(first, second, third, third * z);
+}
+
 // Codes in the three kinds of slots, and back. The greater code stays in a slot.
 fn nmt_core_nearest_code(steps: vec2<u32>) -> u32 {
     return ((NMT_LAST_DEPTH - steps.x) << NMT_END_BITS) | steps.y;

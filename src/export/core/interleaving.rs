@@ -291,9 +291,13 @@ fn races_for_a_full_core_end_alike() {
     for before in lists(&all, 4).into_iter().step_by(7) {
         for race in lists(&all, 2) {
             let mut start = vec![EMPTY; 4];
-            before.iter().for_each(|&f| drop(explorer.codes.insert(&mut start, f)));
+            for &f in &before {
+                explorer.codes.insert(&mut start, f);
+            }
             let mut expected = start.clone();
-            race.iter().for_each(|&f| drop(explorer.codes.insert(&mut expected, f)));
+            for &f in &race {
+                explorer.codes.insert(&mut expected, f);
+            }
             let threads = race.iter().map(|&f| Thread {
                 step: explorer.arrive(0, explorer.codes.encode(Slot::Nearest, f)),
                 waiting: vec![],
