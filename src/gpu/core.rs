@@ -3,11 +3,10 @@
 #[cfg(test)]
 mod tests {
     use crate::check::hlsl;
-    use crate::export::core::tests::SHAPE;
-    use crate::export::core::{CoreBinding, CoreLanguage, codes, insert, weigh};
+    use crate::export::core::weigh::{Entry, weigh_by_law};
+    use crate::export::core::{CoreBinding, CoreLanguage, codes, insert, stride, weigh};
+    use crate::features::core::CoreSet;
     use crate::features::core::code::{CodeLayout, CoreFragment, EMPTY, Slot};
-    use crate::features::core::shape::{CoreSet, CoreShape};
-    use crate::features::core::tail::{Entry, Sums, transmittance};
     use crate::gpu::compute::wgsl_of_glsl;
     use crate::gpu::device::{Dispatch, groups};
     use crate::gpu::tests::gpu;
@@ -56,21 +55,22 @@ mod tests {
     }
 
     /// Every slot as the CPU has it, padded as in the buffer.
-    fn expected(shape: CoreShape, fragments: &Fragments) -> Vec<u32> {
+    fn expected(shape: CoreSet, fragments: &Fragments) -> Vec<u32> {
         let codes = shape.layout.codes(fragments.range.0, fragments.range.1);
-        let mut slots = vec![EMPTY; shape.stride() * fragments.pixels];
+        let mut slots = vec![EMPTY; stride(shape) * fragments.pixels];
         for ((&p, &v), &a) in fragments
             .pixel_of
             .iter()
             .zip(&fragments.view_z)
             .zip(&fragments.absorbance)
         {
-            let first = p as usize * shape.stride();
+            let first = p as usize * stride(shape);
             codes.insert(&mut slots[first..first + shape.slots()], codes.fragment(v, a));
         }
         slots
     }
 
+    const SET: CoreSet = CoreSet::new(4, 2);
     const PLACE: CoreBinding = CoreBinding { group: 0, binding: 4 };
 
     /// A thread a fragment, the chain written in WGSL.
@@ -178,11 +178,11 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
 }
 ";
 
-    fn run(gpu: &Gpu, source: &str, shape: CoreShape, fragments: &Fragments) -> Result<Vec<u32>, GpuError> {
+    fn run(gpu: &Gpu, source: &str, shape: CoreSet, fragments: &Fragments) -> Result<Vec<u32>, GpuError> {
         let pipeline = gpu.compute("core", source, "insert_all")?;
         let groups = groups(fragments.view_z.len() as u64);
         let parameters = [fragments.range.0, fragments.range.1, (groups[0] * 64) as f32, 0.0];
-        let core = gpu.zeros("core", 4 * (shape.stride() * fragments.pixels) as u64)?;
+        let core = gpu.zeros("core", 4 * (stride(shape) * fragments.pixels) as u64)?;
         let buffers = [
             &gpu.upload("parameters", &parameters)?,
             &gpu.upload("pixels", &fragments.pixel_of)?,
@@ -196,7 +196,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             groups,
         };
         gpu.run("core", &[dispatch])?;
-        gpu.download(&core, shape.stride() * fragments.pixels)
+        gpu.download(&core, stride(shape) * fragments.pixels)
     }
 
     /// 16,384 pixels of up to 300 fragments in random order, a thread a fragment: every slot of every pixel is the
@@ -210,13 +210,17 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             octave_bits,
             key_exponent,
         };
+        let of = |layout, heavy| CoreSet {
+            layout,
+            ..CoreSet::new(heavy, 2)
+        };
         let cases = [
-            (SHAPE, 16_384, 300, (2.5, 5.6)),
-            (CoreShape::new(layout(16, 11, 10.0), 6), 2048, 100, (1e-3, 1e3)),
-            (CoreShape::new(layout(20, 7, 10.0), 2), 2048, 60, (2.5, 5.6)),
-            (CoreShape::new(layout(12, 12, 4.5), 8), 1024, 60, (1.0, 1.001)),
-            (CoreShape::new(layout(16, 11, 6.0), 0), 1024, 30, (0.5, 40.0)),
-            (CoreShape::new(layout(16, 11, 6.0), 1), 1024, 30, (1.0, 1.0)),
+            (SET, 16_384, 300, (2.5, 5.6)),
+            (of(layout(16, 11, 10.0), 6), 2048, 100, (1e-3, 1e3)),
+            (of(layout(20, 7, 10.0), 2), 2048, 60, (2.5, 5.6)),
+            (of(layout(12, 12, 4.5), 8), 1024, 60, (1.0, 1.001)),
+            (of(layout(16, 11, 6.0), 0), 1024, 30, (0.5, 40.0)),
+            (of(layout(16, 11, 6.0), 1), 1024, 30, (1.0, 1.0)),
         ];
         for (shape, pixels, most, range) in cases {
             let fragments = fragments(pixels, most, range, 7);
@@ -268,11 +272,8 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         let offsets: Vec<u32> = (0..=fragments.pixels as u32)
             .map(|p| fragments.pixel_of.partition_point(|&q| q < p) as u32)
             .collect();
-        let set = CoreSet {
-            shape: SHAPE,
-            moments: 2,
-        };
-        let text = |language| codes(SHAPE, language) + &insert(language, PLACE) + &weigh(set, language);
+        let set = CoreSet::new(4, 2);
+        let text = |language| codes(SET, language) + &insert(language, PLACE) + &weigh(set, language);
         let glsl = alone(
             &text(CoreLanguage::Glsl),
             "return min(atomicMax(nmt_core[slot], code), code);",
@@ -293,7 +294,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             }
             Err(why) => println!("HLSL is skipped: {why}"),
         }
-        let expected_slots = expected(SHAPE, &fragments);
+        let expected_slots = expected(SET, &fragments);
         let expected = expected_weights(&fragments, &offsets, &expected_slots);
         for (language, source) in sources {
             let pipeline = gpu.compute(language, &source, "main").unwrap();
@@ -334,7 +335,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
 
     /// Transmittances by the CPU's formula in f32, sums in the order of the list.
     fn expected_weights(fragments: &Fragments, offsets: &[u32], slots: &[u32]) -> Vec<f32> {
-        let codes = SHAPE.layout.codes(fragments.range.0, fragments.range.1);
+        let codes = SET.layout.codes(fragments.range.0, fragments.range.1);
         let entry = |f: CoreFragment| Entry {
             z: codes.moment_depth(f.depth_step),
             absorbance: codes.absorbance(f.absorbance_step),
@@ -349,26 +350,22 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             let own: Vec<CoreFragment> = range
                 .map(|i| codes.fragment(fragments.view_z[i], fragments.absorbance[i]))
                 .collect();
-            let mut sums = Sums {
-                n: 0.0f32,
-                b0: 0.0,
-                moments: [0.0; 2],
-            };
+            let (mut n, mut b) = (0.0f32, [0.0f32; 3]);
             for f in own.iter().filter(|f| f.absorbance_step > 0) {
                 let Entry { z, absorbance } = entry(*f);
-                sums.n += 1.0;
-                sums.b0 += absorbance;
-                sums.moments[0] += absorbance * z;
-                sums.moments[1] += absorbance * z * z;
+                n += 1.0;
+                b[0] += absorbance;
+                b[1] += absorbance * z;
+                b[2] += absorbance * z * z;
             }
-            let core: Vec<Entry<f32>> = slots[p * SHAPE.stride()..][..SHAPE.slots()]
+            let core: Vec<Entry<f32>> = slots[p * stride(SET)..][..SET.slots()]
                 .iter()
                 .enumerate()
                 .map(|(place, &code)| codes.decode(Slot::at(place), code).map_or(empty, entry))
                 .collect();
             weights.extend(
                 own.iter()
-                    .map(|&f| transmittance(entry(f), &core, sums, codes.depth_bits)),
+                    .map(|&f| weigh_by_law(entry(f), &core, n, b, codes.depth_bits)),
             );
         }
         weights
@@ -378,10 +375,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
     /// takes none.
     #[test]
     fn glslang_takes_the_fragment_stage() {
-        let set = CoreSet {
-            shape: SHAPE,
-            moments: 4,
-        };
+        let set = CoreSet::new(4, 4);
         let glsl = "
 layout(early_fragment_tests) in;
 layout(location = 0) in vec2 f;
@@ -396,7 +390,7 @@ void main() {
 ";
         let text = |language, with_codes: bool| {
             let codes = if with_codes {
-                codes(SHAPE, language)
+                codes(SET, language)
             } else {
                 String::new()
             };
@@ -455,11 +449,9 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let width = 48;
         let fragments = fragments(width * width, 120, (2.5, 5.6), 9);
         let bindings = WGSL.split("\n@compute").next().unwrap();
-        let source = codes(SHAPE, CoreLanguage::Wgsl) + &insert(CoreLanguage::Wgsl, PLACE) + bindings + RENDER;
+        let source = codes(SET, CoreLanguage::Wgsl) + &insert(CoreLanguage::Wgsl, PLACE) + bindings + RENDER;
         let parameters = [fragments.range.0, fragments.range.1, width as f32, 0.0];
-        let core = gpu
-            .zeros("core", 4 * (SHAPE.stride() * fragments.pixels) as u64)
-            .unwrap();
+        let core = gpu.zeros("core", 4 * (stride(SET) * fragments.pixels) as u64).unwrap();
         let buffers = [
             &gpu.upload("parameters", &parameters).unwrap(),
             &gpu.upload("pixels", &fragments.pixel_of).unwrap(),
@@ -542,8 +534,8 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
             gpu.queue.submit([encoder.finish()]);
         })
         .unwrap();
-        let found: Vec<u32> = gpu.download(&core, SHAPE.stride() * fragments.pixels).unwrap();
-        let expected = expected(SHAPE, &fragments);
+        let found: Vec<u32> = gpu.download(&core, stride(SET) * fragments.pixels).unwrap();
+        let expected = expected(SET, &fragments);
         assert!(found == expected, "{} differ", differing(&found, &expected));
     }
 }

@@ -8,7 +8,7 @@
 
 #[cfg(test)]
 mod interleaving;
-mod weigh;
+pub mod weigh;
 
 pub use weigh::weigh;
 
@@ -85,7 +85,10 @@ mod tests {
 
     #[test]
     fn pixels_start_at_multiples_of_four_slots() {
-        assert_eq!([0, 2, 3, 6, 8].map(|heavy| stride(CoreSet::new(heavy, 2))), [4, 4, 8, 8, 12]);
+        assert_eq!(
+            [0, 2, 3, 6, 8].map(|heavy| stride(CoreSet::new(heavy, 2))),
+            [4, 4, 8, 8, 12]
+        );
     }
 
     /// WGSL is valid for naga at every K and M; control: a chain without its codes is not.

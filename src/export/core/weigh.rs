@@ -4,12 +4,12 @@
 //! the slots are unpacked by text.
 
 use super::CoreLanguage;
-use crate::export::dialect::{Glsl, Hlsl, Wgsl};
 use super::stride;
+use crate::export::dialect::{Glsl, Hlsl, Wgsl};
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
-    absorbance_of, described, normalised, place_noise, recentred, share_by_law, share_of_one, share_of_two, transmittance,
-    without,
+    absorbance_of, described, normalised, place_noise, recentred, share_by_law, share_of_one, share_of_two,
+    transmittance, without,
 };
 use crate::numeric::real::{Constant, Real, c};
 use crate::numeric::source::{Dialect, Source, Type};
@@ -152,7 +152,11 @@ pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n
     // Closed forms, and the law for what has none.
     let own_step = (per_h * Constant(step)).named("own_step");
     let noise = place_noise(b[0], absorbance, center, per_h).named("noise");
-    let spread = if N > 2 { described(m)[2].named("spread") } else { own.z.like(1.0 / 3.0) };
+    let spread = if N > 2 {
+        described(m)[2].named("spread")
+    } else {
+        own.z.like(1.0 / 3.0)
+    };
     let mut share = share_by_law(x, m[1], spread).named("share");
     if N > 3 {
         let two = share_of_two(x, [m[1], m[2], m[3.min(N - 1)]], own_step, noise);

@@ -1,0 +1,178 @@
+//! Arithmetic of core and tail, each formula once, over every kind of number.
+
+use crate::numeric::real::{Real, c};
+
+/// Added to b_0'' before its logarithm is taken, so that a faint tail stays finite.
+pub const ABSORBANCE_OFFSET: f32 = 0.05;
+
+/// Least absorbance of a tail that is divided by.
+const MIN_ABSORBANCE: f64 = 1e-12;
+
+/// Least mass of (1 − x²) times the tail that is divided by.
+const MIN_MASS: f64 = 1e-6;
+
+/// Roundings of a sum that two places may be apart and still be taken for one.
+const ROUNDINGS: f64 = 16.0;
+
+/// Moments b_k − A z^k: a measure without one fragment. The products are those that were added, in the same order.
+#[inline(always)]
+pub fn without<R: Real, const N: usize>(b: [R; N], absorbance: R, z: R) -> [R; N] {
+    let mut term = absorbance;
+    std::array::from_fn(|k| {
+        let rest = b[k] - term;
+        term = term * z;
+        rest
+    })
+}
+
+/// Moments of (z − c)/h from those of z, not normalised.
+#[inline(always)]
+pub fn recentred<R: Real, const N: usize>(b: [R; N], center: R, per_h: R) -> [R; N] {
+    let mut m = b;
+    // One factor at a time: ∫ z^(k−j) (z − c)^j = ∫ z^(k−j+1) (z − c)^(j−1) − c ∫ z^(k−j) (z − c)^(j−1).
+    for pass in 0..N - 1 {
+        for k in (pass + 1..N).rev() {
+            m[k] = m[k] - center * m[k - 1];
+        }
+    }
+    let mut scale = per_h;
+    for m in &mut m[1..] {
+        *m = *m * scale;
+        scale = scale * per_h;
+    }
+    m
+}
+
+/// Absorbance of a tail, at least 0.
+#[inline(always)]
+pub fn absorbance_of<R: Real, const N: usize>(tail: [R; N]) -> R {
+    tail[0].clamp(c(0.0), c(1e30))
+}
+
+/// Normalised moments m_1..m_M of a tail, each in [−1, 1] whatever rounding has done; the first is m_0 = 1.
+#[inline(always)]
+pub fn normalised<R: Real, const N: usize>(tail: [R; N]) -> [R; N] {
+    let per = (c(1.0) / tail[0].max(c(MIN_ABSORBANCE))).named("per_b0");
+    std::array::from_fn(|k| {
+        if k == 0 {
+            tail[0].like(1.0)
+        } else {
+            (tail[k] * per).clamp(c(-1.0), c(1.0))
+        }
+    })
+}
+
+/// Means and spreads of a measure with moments 1, m_1.., then of (1 − x²) times it, and so on. Each spread is the variance
+/// as a share of the greatest that the mean allows; from the second on it is the root of that.
+#[inline(always)]
+pub fn described<R: Real, const N: usize>(m: [R; N]) -> [R; N] {
+    let mut q = m;
+    let mut out = m;
+    let mut first = 1;
+    while first < N {
+        let per_mass = c(1.0) / q[0].max(c(MIN_MASS));
+        let mean = (q[1] * per_mass).clamp(c(-1.0), c(1.0)).named("mean");
+        out[first] = mean;
+        let left = N - first;
+        if left > 1 {
+            let most = (c(1.0) - mean * mean).max(c(MIN_MASS));
+            let spread = ((q[2] * per_mass - mean * mean) / most).clamp(c(0.0), c(1.0));
+            out[first + 1] = if first == 1 { spread } else { spread.sqrt() };
+            for k in 0..left - 1 {
+                q[k] = q[k] - q[k + 2];
+            }
+        }
+        first += 2;
+    }
+    out
+}
+
+/// How far a place that comes from sums may be off, in the pixel's own range: `total` is b_0, `tail` b_0''.
+#[inline(always)]
+pub fn place_noise<R: Real>(total: R, tail: R, center: R, per_h: R) -> R {
+    total / tail.max(c(MIN_ABSORBANCE)) * (per_h + center.abs() * per_h) * c(ROUNDINGS * R::ROUNDING)
+}
+
+/// Whether what lies at `place` is in front of x: 0 at the same depth step and behind, 1 from the step before on, and in
+/// between where the place is off by `noise`. `step` is one depth step in the pixel's own range.
+#[inline(always)]
+pub fn in_front<R: Real>(x: R, place: R, step: R, noise: R) -> R {
+    ((x - place - step * c(0.25)) / (step * c(0.5) + noise)).clamp(c(0.0), c(1.0))
+}
+
+/// Share in front of x of a tail that is one fragment: it lies at the mean.
+#[inline(always)]
+pub fn share_of_one<R: Real>(x: R, mean: R, step: R, noise: R) -> R {
+    in_front(x, mean, step, noise)
+}
+
+/// Share in front of x of a tail that is two fragments, from its moments m_1..m_3: the nodes of the quadrature of Gauss.
+#[inline(always)]
+pub fn share_of_two<R: Real>(x: R, m: [R; 3], step: R, noise: R) -> R {
+    let [m1, m2, m3] = m;
+    let variance = (m2 - m1 * m1).max(c(1e-9)).named("variance");
+    // About the mean the nodes sum to the third moment over the variance, and multiply to minus the variance.
+    let third = m3 - c(3.0) * m1 * m2 + c(2.0) * m1 * m1 * m1;
+    let sum = (third / variance).clamp(c(-2.0), c(2.0)).named("sum");
+    let root = (sum * sum + c(4.0) * variance).sqrt().named("root");
+    let near = (c(0.5) * (sum - root)).named("near");
+    let far = (c(0.5) * (sum + root)).named("far");
+    let of_near = (far / root).clamp(c(0.0), c(1.0)).named("of_near");
+    let place = x - m1;
+    // Places err the more, the nearer together the two lie.
+    let noise = noise + noise / variance.sqrt().max(c(1e-4));
+    of_near * in_front(place, near, step, noise) + (c(1.0) - of_near) * in_front(place, far, step, noise)
+}
+
+/// Share in front of x by the beta law that has the measure's mean and spread, without a network: the log-odds of a beta
+/// variable, whose mean and variance are those of two logarithms of gamma variables, taken for normal, and the normal
+/// law's distribution for a logistic one.
+///
+/// # Accuracy
+/// Within 0.025 of the beta law's distribution, root mean square over means in ±0.8 and spreads from 0.005 to 0.8.
+#[inline(always)]
+pub fn share_by_law<R: Real>(x: R, mean: R, spread: R) -> R {
+    R::step(
+        "share_by_law",
+        "Share of the tail in front of x by the beta law with its mean and spread.",
+        [("x", x), ("mean", mean), ("spread", spread)],
+        |[x, mean, spread]| {
+            let x = x.clamp(c(-0.9999), c(0.9999)).named("place");
+            let middle = (c(0.5) + c(0.5) * mean).clamp(c(1e-3), c(0.999)).named("middle");
+            let total = (c(1.0) / spread.clamp(c(1e-4), c(0.95)) - c(1.0)).named("total");
+            let a = (middle * total).named("a");
+            let b = (total - a).max(c(1e-4)).named("b");
+            let per_a = (c(1.0) / a).named("per_a");
+            let per_b = (c(1.0) / b).named("per_b");
+            // Digamma and trigamma: ln(a + 1/2) − 1/a and 1/(a + 1/2) + 1/a².
+            let odds = ((c(1.0) + x) / (c(1.0) - x) * (b + c(0.5)) / (a + c(0.5))).ln() + per_a - per_b;
+            let variance = c(1.0) / (a + c(0.5)) + c(1.0) / (b + c(0.5)) + per_a * per_a + per_b * per_b;
+            let logit = (c(1.702) * odds / variance.sqrt()).clamp(c(-60.0), c(60.0));
+            c(1.0) / (c(1.0) + (-logit).exp())
+        },
+    )
+}
+
+/// log2(n)/3 − 1
+#[inline(always)]
+pub fn count_feature<R: Real>(n: R) -> R {
+    n.log2() * c(1.0 / 3.0) - c(1.0)
+}
+
+/// ln(b_0'' + 0.05)
+#[inline(always)]
+pub fn absorbance_feature<R: Real>(tail: R) -> R {
+    (tail + c(0.05)).ln()
+}
+
+/// ln(h + 1e-4)/5
+#[inline(always)]
+pub fn range_feature<R: Real>(h: R) -> R {
+    (h + c(1e-4)).ln() * c(0.2)
+}
+
+/// T = exp(−front − b_0'' s), never above 1.
+#[inline(always)]
+pub fn transmittance<R: Real>(front: R, tail: R, share: R) -> R {
+    (-(front + tail * share)).exp().min(c(1.0))
+}
