@@ -758,7 +758,7 @@ pub(crate) mod tests {
     }
 
     /// The same pixels with the order of depths turned round: v0 v1 / v, in f32.
-    fn turned(list: &FragmentList) -> FragmentList {
+    pub fn turned(list: &FragmentList) -> FragmentList {
         let (v0, v1) = list.depth_range().unwrap();
         let view_z = list.view_z().iter().map(|v| v0 / v * v1).collect();
         let (width, height) = list.size().unwrap();

@@ -108,7 +108,13 @@ impl MethodShader {
     ) -> Result<[f32; 2], ShaderError> {
         if self.core.is_some() {
             let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
-            return Ok([v0, v1]);
+            return match v0 > 0.0 && v0 <= v1 && v1.is_finite() {
+                true => Ok([v0, v1]),
+                false => Err(ShaderError {
+                    label: self.name.clone(),
+                    reason: format!("depth range [{v0}, {v1}]; expected 0 < V0 <= V1, both finite"),
+                }),
+            };
         }
         match self.depth {
             MomentDepthKind::Window => {

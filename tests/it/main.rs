@@ -2,6 +2,7 @@
 //! independent reader.
 
 mod cli;
+mod core;
 mod docs;
 mod fuzz;
 mod layers;

@@ -53,6 +53,11 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     return codes;
 }
 
+// Absorbance min(-ln(1 - alpha), 10) of an opacity.
+float nmt_core_absorbance_of(float alpha) {
+    return -log(max(1.0 - alpha, 0.000045399931));
+}
+
 // Steps of a fragment of view depth v.
 uint2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
     int place = nmt_core_log2(clamp(asint(v), codes.first_bits, codes.last_bits));

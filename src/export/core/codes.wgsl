@@ -47,6 +47,11 @@ fn nmt_core_codes(v0: f32, v1: f32) -> NmtCodes {
     return NmtCodes(first, last, first_log2, shift, multiplier, slope);
 }
 
+// Absorbance min(-ln(1 - alpha), 10) of an opacity.
+fn nmt_core_absorbance_of(alpha: f32) -> f32 {
+    return -log(max(1.0 - alpha, 0.000045399931));
+}
+
 // Steps of a fragment of view depth v.
 fn nmt_core_steps(v: f32, absorbance: f32, codes: NmtCodes) -> vec2<u32> {
     let place = nmt_core_log2(clamp(bitcast<i32>(v), codes.first_bits, codes.last_bits));

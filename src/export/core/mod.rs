@@ -6,10 +6,12 @@
 //! 4.30, and GLSL ES 3.10 where `GL_MAX_FRAGMENT_ATOMIC_COUNTERS` and
 //! `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` are not 0.
 
+mod file;
 #[cfg(test)]
 mod interleaving;
 pub mod weigh;
 
+pub use file::{file_name, named, text, write};
 pub use weigh::weigh;
 
 use crate::features::core::CoreSet;
@@ -32,6 +34,11 @@ pub struct CoreBinding {
     pub group: u32,
     /// Binding, or the number of the register.
     pub binding: u32,
+}
+
+impl CoreBinding {
+    /// Where exports declare it; to be changed by hand where a renderer has something else there.
+    pub const DEFAULT: Self = Self { group: 3, binding: 0 };
 }
 
 /// Slots of a pixel in a shader's buffer, so many that they can be read four at a time.

@@ -111,13 +111,26 @@ pub struct Entry<R> {
     pub absorbance: R,
 }
 
-/// Transmittance in front of a fragment without branches: pass 2 of [`pixel`](crate::features::core::pixel), and the
-/// beta law where nothing is known.
-///
-/// # Shapes
-/// `core` begins with the nearest and the farthest fragment; `n` counts the fragments of the pixel that absorb, `b` holds b_0..b_M.
+/// A fragment between its pixel's sums and its transmittance, without branches: pass 2 of
+/// [`pixel`](crate::features::core::pixel).
+struct Query<R: Real, const N: usize> {
+    /// Absorbance of the core in front.
+    front: R,
+    /// Absorbance of the tail.
+    tail: R,
+    /// Moments of the tail, the first 1.
+    m: [R; N],
+    /// The fragment's place in the pixel's range.
+    x: R,
+    /// The share of the tail in front where exact rules say it.
+    exact: R,
+    /// Whether they do.
+    is_exact: R::Mask,
+}
+
+/// Takes the core and the fragment itself out of its pixel's sums.
 #[inline(always)]
-pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R; N], depth_bits: u32) -> R {
+fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R; N], depth_bits: u32) -> Query<R, N> {
     let (zero, one) = (own.z.like(0.0), own.z.like(1.0));
     let name = |stem: &str, values: [R; N]| {
         let mut k = 0;
@@ -140,7 +153,8 @@ pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n
     let near = core[0].z;
     let far = R::select(core[1].absorbance.gt(c(0.0)), core[1].z, near).named("far");
     let center = (c(0.5) * (near + far)).named("center");
-    let per_h = (c(1.0) / (c(0.5) * (far - near)).max(c(0.5 * step))).named("per_h");
+    let half = (c(0.5) * (far - near)).max(c(0.5 * step)).named("half_range");
+    let per_h = (c(1.0) / half).named("per_h");
     let rest = name("moved", recentred(rest, center, per_h));
     // Out with the fragment itself.
     let x = ((own.z - center) * per_h).clamp(c(-1.0), c(1.0)).named("x");
@@ -149,23 +163,45 @@ pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n
     let count = (count - R::select(removed.gt(c(0.0)), one, zero)).named("others");
     let absorbance = absorbance_of(tail).named("absorbance_of_tail");
     let m = name("m", normalised(tail));
-    // Closed forms, and the law for what has none.
+    // What has a closed form.
     let own_step = (per_h * Constant(step)).named("own_step");
     let noise = place_noise(b[0], absorbance, center, per_h).named("noise");
+    let mut exact = share_of_one(x, m[1], own_step, noise).named("exact");
+    if N > 3 {
+        let two = share_of_two(x, [m[1], m[2], m[3.min(N - 1)]], own_step, noise);
+        exact = R::select(count.gt(c(1.5)), two, exact).named("exact");
+    }
+    let behind_all = own.z.ge(far);
+    let before_all = count.lt(c(0.5)) | own.z.le(near);
+    exact = R::select(behind_all, one, exact).named("exact");
+    exact = R::select(before_all, zero, exact).named("exact");
+    let most = if N > 3 { 2.5 } else { 1.5 };
+    Query {
+        front,
+        tail: absorbance,
+        m,
+        x,
+        exact,
+        is_exact: count.lt(c(most)) | own.z.ge(far) | own.z.le(near),
+    }
+}
+
+/// Transmittance in front of a fragment: the beta law shares the tail out where nothing is known of it.
+///
+/// # Shapes
+/// `core` begins with the nearest and the farthest fragment; `n` counts the fragments of the pixel that absorb, `b` holds
+/// b_0..b_M.
+#[inline(always)]
+pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R; N], depth_bits: u32) -> R {
+    let q = query(own, core, n, b, depth_bits);
     let spread = if N > 2 {
-        described(m)[2].named("spread")
+        described(q.m)[2].named("spread")
     } else {
         own.z.like(1.0 / 3.0)
     };
-    let mut share = share_by_law(x, m[1], spread).named("share");
-    if N > 3 {
-        let two = share_of_two(x, [m[1], m[2], m[3.min(N - 1)]], own_step, noise);
-        share = R::select(count.lt(c(2.5)), two, share).named("share");
-    }
-    share = R::select(count.lt(c(1.5)), share_of_one(x, m[1], own_step, noise), share).named("share");
-    share = R::select(own.z.ge(far), one, share).named("share");
-    share = R::select(count.lt(c(0.5)) | own.z.le(near), zero, share).named("share");
-    transmittance(front, absorbance, share)
+    let law = share_by_law(q.x, q.m[1], spread).named("law");
+    let share = R::select(q.is_exact, q.exact, law).named("share");
+    transmittance(q.front, q.tail, share)
 }
 
 /// `nmt_core_weigh`: the formulas on numbers.
