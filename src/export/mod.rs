@@ -14,7 +14,6 @@ pub mod prefix;
 pub mod recentred;
 pub mod shader;
 pub mod translate;
-pub mod visible;
 
 pub use format::{Form, Format, FormatError, Precision, Target};
 pub use prefix::Prefix;
