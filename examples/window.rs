@@ -259,7 +259,11 @@ impl Renderer {
         let both = layout(&[0, 1].map(|i| entry(i, fragment, texture)));
 
         let add = |format| blended(format, wgpu::BlendOperation::Add, wgpu::BlendFactor::One);
-        let over = blended(format, wgpu::BlendOperation::Add, wgpu::BlendFactor::SrcAlpha);
+        let mut over = blended(format, wgpu::BlendOperation::Add, wgpu::BlendFactor::SrcAlpha);
+        if let Some(blend) = over.as_mut().and_then(|target| target.blend.as_mut()) {
+            // The image keeps its own alpha.
+            (blend.alpha.src_factor, blend.alpha.dst_factor) = (wgpu::BlendFactor::Zero, wgpu::BlendFactor::One);
+        }
         let plain = Some(wgpu::ColorTargetState {
             format,
             blend: None,
