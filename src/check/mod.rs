@@ -28,10 +28,7 @@ use std::path::Path;
 /// Greatest absolute error in distribution: raw features of the `paper` set reach logits of 20, where f32 sums lose this much; features of the recentred sets are of
 /// the order of 1.
 pub fn bar_in_distribution(set: FeatureSet) -> f64 {
-    match set {
-        FeatureSet::Paper | FeatureSet::DeepWeightedBlended => 3e-5,
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => 5e-6,
-    }
+    set.spec().tolerances.single
 }
 
 /// An export may be this many times as far from f64 as our own f32 forward pass is on the same rows: in the mean in distribution, at worst beyond.

@@ -220,10 +220,7 @@ mod tests {
             let text = String::from_utf8(encode(&mlp, Format::WGSL).unwrap()).unwrap();
             let module = parse(Format::WGSL, &text).unwrap();
             let interpreter = Interpreter::new(&module);
-            let known = matches!(
-                set,
-                FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
-            );
+            let known = set.spec().exact.ends;
             let scalars = if known { 9 } else { 5 };
             let (n, k) = (500, set.moments());
             // Fragments between near and far, in pixels of three: what is known is smooth in every argument.

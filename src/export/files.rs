@@ -178,8 +178,8 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
 /// Writes every file of a network below a folder, and returns their paths.
 ///
 /// # Errors
-/// [`FileError::Exists`](crate::numeric::file::FileError::Exists) before anything is written where one of them is there and may not be replaced;
-/// otherwise [`ExportError`], with no file half-written.
+/// [`FileError::Exists`](crate::numeric::file::FileError::Exists) before anything is written where one of them is there
+/// and may not be replaced; otherwise [`ExportError`], with no file half-written.
 pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace) -> Result<Vec<PathBuf>, ExportError> {
     let files = files(mlp, prefix)?;
     let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.path)).collect();
@@ -193,8 +193,9 @@ pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace
 
 /// A pass of an API by its template.
 ///
-/// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of such
-/// depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME` is a function with all it uses.
+/// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of
+/// such depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME` is a function with all
+/// it uses.
 fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let (set, glsl) = (mlp.feature_set(), api.glsl());
     let include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
@@ -286,7 +287,8 @@ fn unity(mlp: &Mlp) -> String {
 
 /// Paragraphs of a source that a function uses, and itself; each begins with an empty line.
 fn reachable(source: &str, function: &str) -> String {
-    // Names begin with nmt_, NMT_ or Nmt; a paragraph defines what its lines declare, and uses all other names in its code.
+    // Names begin with nmt_, NMT_ or Nmt; a paragraph defines what its lines declare, and uses all other names in its
+    // code.
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let code = |line: &str| line.split("//").next().unwrap_or_default().to_owned();
     let names = |line: &str| -> Vec<String> {

@@ -1,8 +1,9 @@
 //! Exports: the network as shader source, as ONNX and as JSON.
 //!
-//! Every shader export is one self-contained include file: feature functions, `nmt_transmittance`, and a header comment that says what to feed
-//! it, where it comes from and how accurate it is. Weights stand in constant arrays that are read by literal indices only; a run-time index makes
-//! shader compilers copy the array at each access. WGSL, GLSL and HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
+//! Every shader export is one self-contained include file: feature functions, `nmt_transmittance`, and a header comment
+//! that says what to feed it, where it comes from and how accurate it is. Weights stand in constant arrays that are
+//! read by literal indices only; a run-time index makes shader compilers copy the array at each access. WGSL, GLSL and
+//! HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
 pub mod calls;
 pub mod core;
@@ -14,7 +15,6 @@ pub mod prefix;
 pub mod recentred;
 pub mod shader;
 pub mod translate;
-pub mod visible;
 
 pub use format::{Form, Format, FormatError, Precision, Target};
 pub use prefix::Prefix;
@@ -55,7 +55,8 @@ pub fn encode(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
     encode_as(mlp, format, None)
 }
 
-/// The bytes of an export whose functions, constants and types have a prefix of their own. SPIR-V, ONNX and JSON have no such names.
+/// The bytes of an export whose functions, constants and types have a prefix of their own. SPIR-V, ONNX and JSON have
+/// no such names.
 ///
 /// # Errors
 /// As [`encode`].
@@ -72,8 +73,8 @@ pub fn encode_as(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<V
 /// Writes exports of a network into a folder and returns their paths.
 ///
 /// # Errors
-/// [`FileError::Exists`] before anything is written where one of them is there and may not be replaced, and whatever [`encode`] refuses; otherwise
-/// [`FileError`] with no file half-written.
+/// [`FileError::Exists`] before anything is written where one of them is there and may not be replaced, and whatever
+/// [`encode`] refuses; otherwise [`FileError`] with no file half-written.
 pub fn write(
     mlp: &Mlp,
     folder: &Path,

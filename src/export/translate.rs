@@ -3,6 +3,7 @@
 use super::shader::{self, ENTRY};
 use super::{ExportError, Format, Precision, Prefix};
 use crate::features::FeatureSet;
+use crate::features::spec::ShaderCalls;
 use crate::model::Mlp;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, back};
@@ -50,14 +51,14 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
     let guard = shader::include_guard(mlp.name());
     let guard = prefix.map_or(guard.clone(), |prefix| prefix.apply(&guard));
     let more = [
-        "Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
+        "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
     ];
     let head = shader::comment(&header(mlp, format, prefix, &more)?);
     Ok(format!("{head}#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"))
 }
 
-/// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0 are buffer 0; textures have
-/// the index of their binding.
+/// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0
+/// are buffer 0; textures have the index of their binding.
 ///
 /// # Errors
 /// naga's words.
@@ -99,7 +100,8 @@ pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
 fn msl(wgsl: &str, options: &back::msl::Options) -> Result<String, String> {
     let (module, info) = parse_wgsl(wgsl)?;
     let options = back::msl::Options {
-        lang_version: (2, 0),
+        // The first that knows an invariant position.
+        lang_version: (2, 1),
         ..options.clone()
     };
     let (text, _) =
@@ -133,38 +135,13 @@ fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, more: &[&str]) -> 
     Ok(lines)
 }
 
-/// What the numbers of a row of [`FRAGMENTS`] are; b are the moments.
-fn fragment_arguments(set: FeatureSet) -> (Vec<&'static str>, String) {
-    let (names, call): (&[&str], _) = match set {
-        FeatureSet::Paper => (
-            &["w", "w_min", "w_max", "n", "b0"],
-            format!("{ENTRY}(nmt_features(HEAD, vec4<f32>(TAIL)))"),
-        ),
-        FeatureSet::DeepWeightedBlended => (
-            &["view_z", "v_min", "v_max", "alpha_sum", "n"],
-            format!("{ENTRY}(nmt_features(HEAD))"),
-        ),
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (
-            &[
-                "v",
-                "z",
-                "absorbance",
-                "nearest",
-                "farthest",
-                "z_nearest",
-                "z_farthest",
-                "n",
-                "b0",
-            ],
-            format!("nmt_fragment_transmittance(HEAD, array<f32, {}>(TAIL))", set.moments()),
-        ),
-    };
-    (names.to_vec(), call)
-}
-
 /// The WGSL with two compute shaders behind it, [`ROWS`] and [`FRAGMENTS`]: what the SPIR-V module is made of.
 pub fn with_entry_points(source: &str, set: FeatureSet) -> String {
-    let (names, call) = fragment_arguments(set);
+    let ShaderCalls {
+        arguments: names,
+        answer: call,
+        ..
+    } = set.spec().shader;
     let (width, arguments) = (set.width(), names.len() + set.moments());
     let loads = |base: usize, n: usize| {
         (base..base + n)
@@ -199,7 +176,8 @@ fn {name}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
     text
 }
 
-/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an OpString.
+/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an
+/// OpString.
 ///
 /// # Errors
 /// [`ExportError`].
@@ -215,7 +193,7 @@ pub fn spirv(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
         ..Default::default()
     };
     let words = back::spv::write_vec(&module, &info, &options, None).map_err(|e| refused(e.to_string()))?;
-    let (mut arguments, _) = fragment_arguments(set);
+    let mut arguments = set.spec().shader.arguments.to_vec();
     let moments: Vec<String> = (1..=set.moments()).map(|i| format!("b{i}")).collect();
     arguments.extend(moments.iter().map(String::as_str));
     let (rows, fragments) = (

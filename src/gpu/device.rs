@@ -112,8 +112,8 @@ pub fn groups(invocations: u64) -> [u32; 2] {
 }
 
 impl Gpu {
-    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else the most powerful; OpenGL's only where
-    /// there is no other.
+    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else
+    /// the most powerful; OpenGL's only where there is no other.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::NoDevice`].
@@ -439,13 +439,15 @@ impl Gpu {
 
     /// Whether [`Self::timed`] reads timestamps of the device, rather than the clock.
     ///
-    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before it has run.
+    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before
+    /// it has run.
     pub fn stamps(&self) -> bool {
         self.has_timestamps() && !self.is_software()
     }
 
-    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by timestamps of the device, or where
-    /// those are missing or not to be trusted by the clock around each, which is then submitted and waited for by itself.
+    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by
+    /// timestamps of the device, or where those are missing or not to be trusted by the clock around each, which is
+    /// then submitted and waited for by itself.
     ///
     /// # Errors
     /// [`GpuError::Refused`].

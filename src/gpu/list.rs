@@ -1,4 +1,5 @@
-//! Both passes of a method over a fragment list in compute shaders: the arithmetic of a method without a renderer around it, each pass timed by itself.
+//! Both passes of a method over a fragment list in compute shaders: the arithmetic of a method without a renderer
+//! around it, each pass timed by itself.
 
 use super::device::{Dispatch, Gpu, GpuError, groups};
 use super::upload::{self, Chunk, DeviceList, frame};
@@ -138,8 +139,9 @@ mod tests {
     use crate::scene;
     use std::path::Path;
 
-    /// A shipped network over built-in scenes: GPU against the CPU's pass. Logarithms differ by some ulp, which thin pixels magnify; so the error against the exact
-    /// answer is compared, and where nothing is magnified the answers: T-MSE within 2 %, 99 % of T within 3e-3. Control: another pixel's answers.
+    /// A shipped network over built-in scenes: GPU against the CPU's pass. Logarithms differ by some ulp, which thin
+    /// pixels magnify; so the error against the exact answer is compared, and where nothing is magnified the answers:
+    /// T-MSE within 2 %, 99 % of T within 3e-3. Control: another pixel's answers.
     #[test]
     fn a_network_answers_as_on_the_cpu() {
         let Some(gpu) = gpu() else { return };

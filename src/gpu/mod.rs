@@ -1,6 +1,7 @@
 //! The GPU: a headless device, exported functions run in compute shaders, and the two passes as a renderer makes them.
 //!
-//! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips visibly or fails.
+//! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips
+//! visibly or fails.
 
 pub mod compute;
 #[cfg(test)]
@@ -21,7 +22,8 @@ pub use upload::DeviceList;
 pub(crate) mod tests {
     use super::*;
 
-    /// The device that tests run on; none, said aloud, where there is no adapter, and a failure where `NMT_REQUIRE` names `gpu`.
+    /// The device that tests run on; none, said aloud, where there is no adapter, and a failure where `NMT_REQUIRE`
+    /// names `gpu`.
     pub fn gpu() -> Option<&'static Gpu> {
         match Gpu::shared() {
             Ok(gpu) => Some(gpu),

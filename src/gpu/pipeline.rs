@@ -1,7 +1,9 @@
-//! Both passes and the resolve as a renderer makes them: render passes whose targets are blended into, in whatever order the fragments come.
+//! Both passes and the resolve as a renderer makes them: render passes whose targets are blended into, in whatever
+//! order the fragments come.
 //!
-//! [`crate::shader::passes`] has the text and says what the passes write; [`Pipeline`] puts a method before a fragment list on the device, which is drawn
-//! as one point a fragment. `docs/integration.md` says what a renderer does otherwise.
+//! [`crate::shader::passes`] has the text and says what the passes write; [`Pipeline`] puts a method before a fragment
+//! list on the device, which is drawn as one point a fragment. `docs/integration.md` says what a renderer does
+//! otherwise.
 
 use super::device::{Gpu, GpuError, Stamps};
 use super::upload::{self, Chunk, DeviceList, frame};
@@ -674,14 +676,16 @@ fn render_pipeline(
     })
 }
 
-/// Draws a list with a method in render passes. The camera's planes and the depth range are the list's own where none are given.
+/// Draws a list with a method in render passes. The camera's planes and the depth range are the list's own where none
+/// are given.
 ///
 /// # Accuracy
-/// Sums are f32, added in the order in which fragments are drawn. Against the CPU's image, whose features are f64, no channel of 99.9 % of the pixels is
-/// off by more than 1e-3; test `the_image_is_the_cpu_evaluators`.
+/// Sums are f32, added in the order in which fragments are drawn. Against the CPU's image, whose features are f64, no
+/// channel of 99.9 % of the pixels is off by more than 1e-3; test `the_image_is_the_cpu_evaluators`.
 ///
 /// # Errors
-/// [`GpuError::NoImage`] where the list makes none, [`GpuError::Lacks`] where the device cannot blend into f32 targets; and other [`GpuError`].
+/// [`GpuError::NoImage`] where the list makes none, [`GpuError::Lacks`] where the device cannot blend into f32 targets;
+/// and other [`GpuError`].
 pub fn render(
     gpu: &Gpu,
     method: &MethodShader,
@@ -769,10 +773,12 @@ pub(crate) mod tests {
             .unwrap()
     }
 
-    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same scenes with depths turned round.
+    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same
+    /// scenes with depths turned round.
     ///
-    /// In a pixel of `hair` up to 160 fragments lie within a thin range, and an ulp in their depths shows: two f32 passes on the CPU, one of them with the
-    /// logarithm in f32, are as far apart as CPU and GPU are, 1e-3 to 2e-3 by the size of the image. So it is not among the scenes.
+    /// In a pixel of `hair` up to 160 fragments lie within a thin range, and an ulp in their depths shows: two f32
+    /// passes on the CPU, one of them with the logarithm in f32, are as far apart as CPU and GPU are, 1e-3 to 2e-3 by
+    /// the size of the image. So it is not among the scenes.
     #[test]
     fn the_image_is_the_cpu_evaluators() {
         let Some(gpu) = gpu() else { return };
@@ -800,7 +806,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Render passes: what cannot be seen changes no channel by more than 1/512 and FLIP by at most 0.0005. Control: it changes something.
+    /// Render passes: what cannot be seen changes no channel by more than 1/512 and FLIP by at most 0.0005. Control: it
+    /// changes something.
     #[test]
     fn drawn_frames_leave_out_what_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
@@ -861,7 +868,8 @@ pub(crate) mod tests {
         )
     }
 
-    /// Every pixel of [`odd`] follows from the exact rules, so that the CPU's image is met to 1e-6; control: another background.
+    /// Every pixel of [`odd`] follows from the exact rules, so that the CPU's image is met to 1e-6; control: another
+    /// background.
     #[test]
     fn odd_pixels_are_exact() {
         let Some(gpu) = gpu() else { return };
@@ -959,8 +967,8 @@ pub(crate) mod tests {
         assert!(most <= 0.01 && most > 1e-6, "{most:e}");
     }
 
-    /// All sums as f16, on a device that does not blend f32: the range is exact, so that what is exact stays so to 16 bits, and the image MSE of `foliage`
-    /// grows by less than a third. Control: storage as f16 is not that of f32.
+    /// All sums as f16, on a device that does not blend f32: the range is exact, so that what is exact stays so to 16
+    /// bits, and the image MSE of `foliage` grows by less than a third. Control: storage as f16 is not that of f32.
     #[test]
     fn half_storage_costs_little() {
         if gpu().is_none() {
@@ -1011,7 +1019,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The shaders of every shipped network and classic method are valid WGSL, device or none; control: a method without its weight is not.
+    /// The shaders of every shipped network and classic method are valid WGSL, device or none; control: a method
+    /// without its weight is not.
     #[test]
     fn shaders_validate() {
         let validate = |source: &str| {
@@ -1049,15 +1058,16 @@ pub(crate) mod tests {
                 }
             }
             let broken = MethodShader {
-                source: method.source.replace("oit_weight", "oit_wait"),
+                source: method.source.replace(method.weight, "oit_wait"),
                 ..method
             };
             assert!(validate(&Shaders::new(&broken, TargetPrecision::Full, Limits::WEBGPU).pass2).is_err());
         }
     }
 
-    /// Classic methods by their twins. Those that add up no moments are the CPU's to 1e-4 everywhere; of moments in f32, which the CPU has in f64, 99 % of
-    /// the pixels are within 0.03: trigonometric ones feel the rounding. Control: the scene with depths turned round, for those that look at depth.
+    /// Classic methods by their twins. Those that add up no moments are the CPU's to 1e-4 everywhere; of moments in
+    /// f32, which the CPU has in f64, 99 % of the pixels are within 0.03: trigonometric ones feel the rounding.
+    /// Control: the scene with depths turned round, for those that look at depth.
     #[test]
     fn classic_methods_are_drawn_too() {
         let Some(gpu) = gpu() else { return };

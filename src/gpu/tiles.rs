@@ -1,9 +1,11 @@
 //! Both passes in compute shaders over per-pixel lists, and the network only for the fragments that need it.
 //!
-//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to four fragments, or of fragments at one depth, follow from exact rules; they are shaded as soon as
-//! they are told apart, by a shader that holds no network. The others go to a list, 64 to a workgroup whatever lies between them, and an indirect dispatch shades them.
-//! With [`Skip::Visible`] faint pixels are known too, and pixels in which fragments may be hidden have a list and a shader of their own: it finds the depth from
-//! which on all is hidden, once a pixel, and runs the network for what is in front. Nothing needs blending, so that this is also the way where a device cannot blend into f32 targets.
+//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to four fragments, or of fragments at one depth,
+//! follow from exact rules; they are shaded as soon as they are told apart, by a shader that holds no network. The
+//! others go to a list, 64 to a workgroup whatever lies between them, and an indirect dispatch shades them. With
+//! [`Skip::Visible`] faint pixels are known too, and pixels in which fragments may be hidden have a list and a shader
+//! of their own: it finds the depth from which on all is hidden, once a pixel, and runs the network for what is in
+//! front. Nothing needs blending, so that this is also the way where a device cannot blend into f32 targets.
 
 use super::device::{Gpu, GpuError, groups};
 use super::pipeline::{FrameSeconds, Rendered};
@@ -282,7 +284,8 @@ enum Groups {
     Indirect(u64),
 }
 
-/// As [`super::pipeline::render`], in compute passes that blend nothing, with the network for fragments whose answer is used.
+/// As [`super::pipeline::render`], in compute passes that blend nothing, with the network for fragments whose answer is
+/// used.
 ///
 /// # Errors
 /// [`GpuError`].
@@ -333,7 +336,8 @@ mod tests {
         }
     }
 
-    /// With the pixels told apart and without: the same bits, and the lists hold what a count here says. The sizes are no multiples of 8.
+    /// With the pixels told apart and without: the same bits, and the lists hold what a count here says. The sizes are
+    /// no multiples of 8.
     #[test]
     fn telling_pixels_apart_changes_no_bit() {
         let Some(gpu) = gpu() else { return };
@@ -360,7 +364,8 @@ mod tests {
         }
     }
 
-    /// The control: a short form that answers otherwise shows in the image of a scene with known pixels, and nowhere else.
+    /// The control: a short form that answers otherwise shows in the image of a scene with known pixels, and nowhere
+    /// else.
     #[test]
     fn known_pixels_are_shaded_by_the_short_form() {
         let Some(gpu) = gpu() else { return };
@@ -376,8 +381,9 @@ mod tests {
         assert!(different > 0 && different < plain.len(), "{different}");
     }
 
-    /// What cannot be seen is left out: on the built-in scenes no channel is more than 1/512 from the image that skips nothing, FLIP at most 0.0005, and the CPU's `visible` image is met as
-    /// the CPU's is elsewhere; fewer fragments are evaluated for where some are hidden. Control: a shader that takes nearly all fragments for hidden.
+    /// What cannot be seen is left out: on the built-in scenes no channel is more than 1/512 from the image that skips
+    /// nothing, FLIP at most 0.0005, and the CPU's `visible` image is met as the CPU's is elsewhere; fewer fragments
+    /// are evaluated for where some are hidden. Control: a shader that takes nearly all fragments for hidden.
     #[test]
     fn what_is_left_out_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
@@ -436,8 +442,9 @@ mod tests {
         assert!(controls > 3, "{controls}");
     }
 
-    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and the network is evaluated in none of them. Controls: it is in pixels three times
-    /// as opaque, and networks that answer 0 or 1 do change what is seen a little.
+    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and the network is evaluated in
+    /// none of them. Controls: it is in pixels three times as opaque, and networks that answer 0 or 1 do change what is
+    /// seen a little.
     #[test]
     fn faint_pixels_need_no_network() {
         let Some(gpu) = gpu() else { return };
@@ -472,8 +479,8 @@ mod tests {
         Mlp::new("biased", mlp.feature_set(), layers, crate::model::Provenance::default()).unwrap()
     }
 
-    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and the image is that of none. Control: with answers that weigh enough, it is
-    /// not.
+    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and
+    /// the image is that of none. Control: with answers that weigh enough, it is not.
     #[test]
     fn doubtful_pixels_are_asked_about() {
         let Some(gpu) = gpu() else { return };
@@ -513,7 +520,8 @@ mod tests {
         assert!(counts.known > 0);
     }
 
-    /// The image is the render passes' (they add in the same order, so within 1e-5) and the CPU evaluator's; on a device that cannot blend too.
+    /// The image is the render passes' (they add in the same order, so within 1e-5) and the CPU evaluator's; on a
+    /// device that cannot blend too.
     #[test]
     fn compute_passes_need_no_blending() {
         let Some(gpu) = gpu() else { return };

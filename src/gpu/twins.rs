@@ -60,8 +60,9 @@ fn single(name: &str) -> String {
     }
 }
 
-/// T of the twins of moment-based methods: 99 % within 1e-3 of the CPU's on the same f32 moments, all finite, and the same T-MSE to 1 %. What lies further
-/// apart are fragments where the moments are nearly those of fewer atoms, which rounding decides. Control: the answers of another number of moments.
+/// T of the twins of moment-based methods: 99 % within 1e-3 of the CPU's on the same f32 moments, all finite, and the
+/// same T-MSE to 1 %. What lies further apart are fragments where the moments are nearly those of fewer atoms, which
+/// rounding decides. Control: the answers of another number of moments.
 #[test]
 fn twins_answer_as_on_the_cpu() {
     let Some(gpu) = gpu() else { return };
@@ -83,7 +84,8 @@ fn twins_answer_as_on_the_cpu() {
     }
 }
 
-/// Weights of the other twins within 5e-6 relative; within 1e-4 where 1 − w cancels, w the window depth. Control: the weights of the function before it.
+/// Weights of the other twins within 5e-6 relative; within 1e-4 where 1 − w cancels, w the window depth. Control: the
+/// weights of the function before it.
 #[test]
 fn blending_weights_are_those_of_the_cpu() {
     let Some(gpu) = gpu() else { return };
@@ -133,8 +135,9 @@ fn hard() -> FragmentList {
     FragmentList::new(offsets, view_z, alpha, None).unwrap()
 }
 
-/// Where all fragments of a pixel are next to each other, published methods lose rank: at most 2 % of such answers may fail to be finite or be above 1, and are
-/// counted; of `+own` none may, and it answers the nearest fragment, and pixels without absorbance, by 1 exactly. Control: without `+own` the nearest is not 1.
+/// Where all fragments of a pixel are next to each other, published methods lose rank: at most 2 % of such answers may
+/// fail to be finite or be above 1, and are counted; of `+own` none may, and it answers the nearest fragment, and
+/// pixels without absorbance, by 1 exactly. Control: without `+own` the nearest is not 1.
 #[test]
 fn hard_pixels() {
     let Some(gpu) = gpu() else { return };
@@ -178,8 +181,8 @@ fn hard_pixels() {
     }
 }
 
-/// Closed forms against the CPU's iteration in f64: cos(acos(x)/3) within 4e-7, roots of random polynomials, at least 0.2 apart in [−3, 3], within 1e-3. Control:
-/// the roots of other polynomials.
+/// Closed forms against the CPU's iteration in f64: cos(acos(x)/3) within 4e-7, roots of random polynomials, at least
+/// 0.2 apart in [−3, 3], within 1e-3. Control: the roots of other polynomials.
 #[test]
 fn roots_are_those_of_the_cpu() {
     let Some(gpu) = gpu() else { return };

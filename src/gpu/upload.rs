@@ -7,8 +7,8 @@ use crate::shader::MethodShader;
 
 /// A fragment list on the device: uploaded once, drawn and computed with by every method.
 ///
-/// Its fragments lie in chunks, several where a buffer does not hold all. Render passes draw one after the other; compute passes go through a pixel's
-/// fragments wherever they lie, and take lists of one chunk.
+/// Its fragments lie in chunks, several where a buffer does not hold all. Render passes draw one after the other;
+/// compute passes go through a pixel's fragments wherever they lie, and take lists of one chunk.
 #[derive(Debug)]
 pub struct DeviceList {
     /// Pixels.

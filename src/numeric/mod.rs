@@ -1,5 +1,5 @@
-//! Numbers only, no graphics words: precision-generic arithmetic, orthogonal polynomials, roots, storage rounding, random streams, tolerances,
-//! hashing and safe file writing.
+//! Numbers only, no graphics words: precision-generic arithmetic, orthogonal polynomials, roots, storage rounding,
+//! random streams, tolerances, hashing and safe file writing.
 
 pub mod complex;
 pub mod digest;

@@ -1,4 +1,5 @@
-//! A method's twin on a GPU: what pass 1 adds up, and the weight that pass 2 makes of it, as WGSL. [`crate::shader`] makes whole passes of it.
+//! A method's twin on a GPU: what pass 1 adds up, and the weight that pass 2 makes of it, as WGSL. The
+//! module `shader` makes whole passes of it.
 
 use crate::features::MomentDepthKind;
 use crate::features::core::CoreSet;
@@ -16,7 +17,8 @@ pub enum Composite {
     /// # Source
     /// Meshkin 2007, [`crate::oit::weighted_sum`].
     Sum,
-    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is 0.
+    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is
+    /// 0.
     ///
     /// # Source
     /// Bavoil, Myers 2008, [`crate::oit::weighted_average`].
@@ -27,7 +29,8 @@ pub enum Composite {
 ///
 /// # Contract
 /// `source` defines, with `OitFragment` and `OitPixel` as `shader/prelude.wgsl` has them and K = [`Self::sums`]:
-/// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
+/// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total
+///   absorbance;
 /// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
 /// - what [`Self::offers`] says.
 ///
@@ -49,7 +52,8 @@ pub struct MethodShader {
     pub core: Option<CoreSet>,
     /// Functions of the source beside the two that every method has.
     pub offers: Offers,
-    /// The function that passes call for the weight of a fragment: `oit_weight`, or `oit_visible_weight` where that is offered.
+    /// The function that passes call for the weight of a fragment: `oit_weight`, or `oit_visible_weight` where that is
+    /// offered.
     pub weight: &'static str,
     /// WGSL.
     pub source: String,
@@ -58,11 +62,13 @@ pub struct MethodShader {
 /// Functions that a method's source may have beside `oit_accumulate` and `oit_weight`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Offers {
-    /// A shorter way in pixels of up to four fragments, or of fragments at one depth: `fn oit_short_weight(f, p)`, there the same numbers; with it
-    /// `fn oit_end_weight(f, p)`, the same number where a fragment is an end of its pixel or has next to nothing beside it, else −1.
+    /// A shorter way in pixels of up to four fragments, or of fragments at one depth: `fn oit_short_weight(f, p)`,
+    /// there the same numbers; with it `fn oit_end_weight(f, p)`, the same number where a fragment is an end of its
+    /// pixel or has next to nothing beside it, else −1.
     pub short_weight: bool,
-    /// What spares a network what cannot be seen: `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`,
-    /// `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as [`visible`](crate::features::visible) has them.
+    /// What spares a network what cannot be seen: `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`, `fn
+    /// oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
+    /// [`visible`](crate::features::visible) has them.
     pub visibility: bool,
 }
 

@@ -16,7 +16,8 @@ impl MethodShader {
     /// A network, by the shader source that `format` exports.
     ///
     /// # Errors
-    /// [`ShaderError`] where the format is no WGSL, the network does not fit into f16, or its answer is no transmittance.
+    /// [`ShaderError`] where the format is no WGSL, the network does not fit into f16, or its answer is no
+    /// transmittance.
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, ShaderError> {
         let name = format!("neural:{}", mlp.name());
         let refused = |reason: String| ShaderError {
@@ -57,14 +58,16 @@ impl MethodShader {
         })
     }
 
-    /// No method: every weight is 1, once a fragment's depth and absorbance and its pixel's total are there, as every method has them.
+    /// No method: every weight is 1, once a fragment's depth and absorbance and its pixel's total are there, as every
+    /// method has them.
     pub fn empty(name: &str) -> Self {
         let weight = include_str!("empty.wgsl");
         Self::of_total(name.to_owned(), MomentDepthKind::Log, Composite::Normalised, weight)
     }
 
-    /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what cannot be seen; `None` and `Exact`
-    /// are one text, whose branches the device takes or does not. A method that has no network keeps its weight.
+    /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what
+    /// cannot be seen; `None` and `Exact` are one text, whose branches the device takes or does not. A method that has
+    /// no network keeps its weight.
     pub fn with_skip(self, skip: Skip) -> Self {
         let weight = if skip == Skip::Visible && self.offers.visibility {
             VISIBLE_WEIGHT
@@ -74,7 +77,8 @@ impl MethodShader {
         Self { weight, ..self }
     }
 
-    /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
+    /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable
+    /// f16;`, come first.
     pub fn module(&self) -> String {
         if let Some(set) = self.core {
             return super::core::module(set);
@@ -95,8 +99,8 @@ impl MethodShader {
         )
     }
 
-    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes; or v0 and v1,
-    /// where there is a core.
+    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are
+    /// one; or the camera's planes; or v0 and v1, where there is a core.
     ///
     /// # Errors
     /// [`ShaderError`] where planes are needed and unknown.

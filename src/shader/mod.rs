@@ -1,7 +1,8 @@
 //! The text of every method's passes as WGSL, without a device.
 //!
-//! A method ([`MethodShader`]) says what pass 1 adds and what pass 2 weighs by; [`passes`] makes render passes of it, [`compute`] compute passes. All WGSL
-//! lies in files beside the Rust; words in capitals that begin with `OIT_` are filled in.
+//! A method ([`MethodShader`]) says what pass 1 adds and what pass 2 weighs by; [`passes`] makes render passes of it,
+//! [`compute`] compute passes. All WGSL lies in files beside the Rust; words in capitals that begin with `OIT_` are
+//! filled in.
 
 pub mod compute;
 mod core;

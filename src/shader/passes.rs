@@ -1,5 +1,6 @@
-//! Both passes and the resolve as a renderer makes them, as whole WGSL modules that can be lifted into one: render passes whose targets are blended into,
-//! in whatever order the fragments come. `docs/integration.md` says what a renderer does otherwise.
+//! Both passes and the resolve as a renderer makes them, as whole WGSL modules that can be lifted into one: render
+//! passes whose targets are blended into, in whatever order the fragments come. `docs/integration.md` says what a
+//! renderer does otherwise.
 //!
 //! | pass | targets | blending |
 //! |---|---|---|
@@ -8,7 +9,8 @@
 //! | 2 | Σ a w C and Σ a w | add |
 //! | resolve | colour | none |
 //!
-//! Where f32 targets cannot be blended into, [`TargetPrecision::Half`] keeps sums as f16 and both ends of the range in depth buffers, a draw each.
+//! Where f32 targets cannot be blended into, [`TargetPrecision::Half`] keeps sums as f16 and both ends of the range in
+//! depth buffers, a draw each.
 
 use super::MethodShader;
 use crate::export::core::{CoreBinding, CoreLanguage, insert};
@@ -26,8 +28,8 @@ pub enum TargetPrecision {
     /// All sums f16, which every device blends into; the range through two depth buffers.
     ///
     /// # Accuracy
-    /// For networks only: methods that reconstruct a curve from moments need other constants for 16 bits, and answer NaN with these. Test
-    /// `half_storage_costs_little`.
+    /// For networks only: methods that reconstruct a curve from moments need other constants for 16 bits, and answer
+    /// NaN with these. Test `half_storage_costs_little`.
     Half,
 }
 
@@ -92,7 +94,8 @@ pub struct Target {
 /// What a render target of pass 1 holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holds {
-    /// So many of the numbers that are added up, from the one of this index on; the number after the last sum is the number of fragments.
+    /// So many of the numbers that are added up, from the one of this index on; the number after the last sum is the
+    /// number of fragments.
     Added {
         /// Index of the first.
         first: usize,
@@ -172,8 +175,8 @@ impl Target {
 pub struct Shaders {
     /// All targets of pass 1.
     pub targets: Vec<Target>,
-    /// Pass 1, and the indices of the targets that it writes; in several draws where the device does not write all at once. Entry points `oit_point`
-    /// and `oit_pass1`.
+    /// Pass 1, and the indices of the targets that it writes; in several draws where the device does not write all at
+    /// once. Entry points `oit_point` and `oit_pass1`.
     pub pass1: Vec<(String, Vec<usize>)>,
     /// Pass 2; entry points `oit_point` and `oit_pass2`.
     pub pass2: String,
@@ -208,7 +211,8 @@ impl Shaders {
     /// Shader source for a method on a device with these limits.
     pub fn new(method: &MethodShader, precision: TargetPrecision, limits: Limits) -> Self {
         let targets = Target::of(method, precision);
-        // Pass 1 in as few draws as the limits allow; a draw has one target at least, and a depth buffer is the only one of its draw.
+        // Pass 1 in as few draws as the limits allow; a draw has one target at least, and a depth buffer is the only
+        // one of its draw.
         let mut draws: Vec<Vec<usize>> = Vec::new();
         let mut bytes = 0;
         for (index, target) in targets.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the documentation, and an
 //! independent reader.
 
+mod bench_gpu;
 mod cli;
 mod core;
 mod docs;
@@ -9,4 +10,5 @@ mod layers;
 mod over_time;
 mod python;
 mod report;
+mod shader_folder;
 mod shaders;

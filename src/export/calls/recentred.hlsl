@@ -2,12 +2,13 @@
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
 struct NmtSums {
 NMT_FIELDS
-    // (-v, v, 0, 0): blended by max, cleared to -3e38, so that it holds -nearest and farthest. Two channels, f32 always.
+    // (-v, v, 0, 0): blended by max, cleared to -3e38, so that it holds -nearest and farthest. Two channels, f32
+    // always.
     float4 range;
 };
 
-// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and the
-// greatest v of the scene.
+// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and
+// the greatest v of the scene.
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     NMT_MOMENTS_OF(nmt_moment_depth(v, v0, v1), absorbance)

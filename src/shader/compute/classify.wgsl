@@ -1,8 +1,9 @@
 
-// Which pixels need the network? Those that do not are shaded here and now. The others go to lists by their kind, so that threads that work together all have work.
+// Which pixels need the network? Those that do not are shaded here and now. The others go to lists by their kind, so
+// that threads that work together all have work.
 
-// Workgroups in x, y and z of two indirect dispatches, one a kind; then how many pixels there are of each kind; then room for all pixels, which one kind fills from the
-// front and one from the back.
+// Workgroups in x, y and z of two indirect dispatches, one a kind; then how many pixels there are of each kind; then
+// room for all pixels, which one kind fills from the front and one from the back.
 @group(0) @binding(7) var<storage, read_write> oit_lists: array<atomic<u32>>;
 
 @compute @workgroup_size(8, 8)

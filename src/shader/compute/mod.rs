@@ -1,7 +1,7 @@
 //! Compute passes over per-pixel lists, which need no blending.
 //!
-//! [`ListShaders`] are a method's arithmetic without a renderer around it; [`TileShaders`] make an image, with the network only for the fragments that
-//! need it.
+//! [`ListShaders`] are a method's arithmetic without a renderer around it; [`TileShaders`] make an image, with the
+//! network only for the fragments that need it.
 
 use super::passes::{FRAME, composite};
 use super::{MethodShader, core};
@@ -37,8 +37,8 @@ const ROW: &str = "32768u";
 /// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
 const MIN_OPACITY: f32 = 1.0 / 512.0;
 
-/// What pass 1 leaves of a pixel, four numbers to a vector: the sums, and where they are kept number and range of its fragments, the range with its moment
-/// depths, so that no fragment warps the depths of others.
+/// What pass 1 leaves of a pixel, four numbers to a vector: the sums, and where they are kept number and range of its
+/// fragments, the range with its moment depths, so that no fragment warps the depths of others.
 #[derive(Debug, Clone, Copy)]
 struct State {
     sums: usize,
@@ -122,8 +122,8 @@ impl State {
 
 /// Both passes of a method over a list, as whole WGSL modules.
 ///
-/// Bind group 0: 0 the frame; 1 offsets of pixels in pass 1, pixels of fragments in pass 2; 2 view depths; 3 opacities; 4 what pass 1 leaves; 5 weights. Where
-/// a method keeps cores, they are binding 5 of pass 1 and 6 of pass 2.
+/// Bind group 0: 0 the frame; 1 offsets of pixels in pass 1, pixels of fragments in pass 2; 2 view depths; 3 opacities;
+/// 4 what pass 1 leaves; 5 weights. Where a method keeps cores, they are binding 5 of pass 1 and 6 of pass 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListShaders {
     /// Pass 1.
@@ -154,11 +154,12 @@ impl ListShaders {
 
 /// Passes that make an image of per-pixel lists, as whole WGSL modules.
 ///
-/// Pass 1 leaves sums, number and range of a pixel's fragments. `every` shades all pixels with the network. Or pixels are told apart: `classify` shades those
-/// that need no network at once and lists the others by kind, `network` and `hiding` shade the listed ones.
+/// Pass 1 leaves sums, number and range of a pixel's fragments. `every` shades all pixels with the network. Or pixels
+/// are told apart: `classify` shades those that need no network at once and lists the others by kind, `network` and
+/// `hiding` shade the listed ones.
 ///
-/// Bind group 0 behind pass 1: 0 the frame, 1 offsets, 2 view depths, 3 opacities, 4 colours, 5 what pass 1 left, 6 the image, 7 the lists of
-/// pixels, 8 the cores where a method keeps them.
+/// Bind group 0 behind pass 1: 0 the frame, 1 offsets, 2 view depths, 3 opacities, 4 colours, 5 what pass 1 left, 6 the
+/// image, 7 the lists of pixels, 8 the cores where a method keeps them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TileShaders {
     /// Pass 1; its bindings are those of [`ListShaders`].
@@ -205,7 +206,8 @@ impl TileShaders {
     }
 }
 
-/// The shader that tells pixels apart: whether one is `known` or `faint`, what `kind` it is else, and the weight of fragments of the known.
+/// The shader that tells pixels apart: whether one is `known` or `faint`, what `kind` it is else, and the weight of
+/// fragments of the known.
 fn classify(method: &MethodShader, visible: bool) -> String {
     let offers = method.offers;
     // What has no short form needs the long one wherever there is a fragment.

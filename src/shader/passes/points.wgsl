@@ -1,7 +1,8 @@
 // The vertex stage that draws a fragment list: one point a fragment.
 //
-// A renderer has its own vertex stage. What it must hand on is v, the distance along the view direction, and it must hand on the same bits in both
-// passes: same expressions, same vertices, @invariant position. The nearest and the farthest fragment of a pixel are told by comparing v.
+// A renderer has its own vertex stage. What it must hand on is v, the distance along the view direction, and it must
+// hand on the same bits in both passes: same expressions, same vertices, @invariant position. The nearest and the
+// farthest fragment of a pixel are told by comparing v.
 
 @group(1) @binding(0) var<storage, read> oit_pixel_of: array<u32>;
 @group(1) @binding(1) var<storage, read> oit_view_z: array<f32>;

@@ -1,7 +1,7 @@
 // Direct3D, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Factors ONE, D3D12_BLEND_OP_ADD; target DXGI_FORMAT_R16G16B16A16_FLOAT or R32G32B32A32_FLOAT, cleared to 0. Textures: the
-// targets of pass 1.
+// Factors ONE, D3D12_BLEND_OP_ADD; target DXGI_FORMAT_R16G16B16A16_FLOAT or R32G32B32A32_FLOAT, cleared to 0. Textures:
+// the targets of pass 1.
 //
 %include nmt_pass2
 

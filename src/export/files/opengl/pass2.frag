@@ -1,7 +1,8 @@
 #version {version}
 // {api}, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// glBlendFunc(GL_ONE, GL_ONE), GL_FUNC_ADD; target GL_RGBA16F or GL_RGBA32F, cleared to 0. Textures: the targets of pass 1.
+// glBlendFunc(GL_ONE, GL_ONE), GL_FUNC_ADD; target GL_RGBA16F or GL_RGBA32F, cleared to 0. Textures: the targets of
+// pass 1.
 //
 %es precision highp float;
 %es precision highp int;

@@ -1,7 +1,8 @@
 #version 450
 // Vulkan, pass 1: draw every transparent surface, in any order, without writing depth.
 //
-// All blend factors VK_BLEND_FACTOR_ONE; VK_BLEND_OP_ADD, and VK_BLEND_OP_MAX for target {range} (feature independentBlend).
+// All blend factors VK_BLEND_FACTOR_ONE; VK_BLEND_OP_ADD, and VK_BLEND_OP_MAX for target {range} (feature
+// independentBlend).
 %sums // Target {i}: {vkformat{i}}, cleared to 0.
 // Target {range}: VK_FORMAT_R32G32_SFLOAT, cleared to -3e38.
 //

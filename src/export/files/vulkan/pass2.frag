@@ -1,8 +1,9 @@
 #version 450
 // Vulkan, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD; target VK_FORMAT_R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT, cleared to 0.
-// Set 0: the targets of pass 1. With NMT_SUBPASS defined they are input attachments of a subpass, which tilers keep on chip.
+// Blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD; target VK_FORMAT_R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT,
+// cleared to 0. Set 0: the targets of pass 1. With NMT_SUBPASS defined they are input attachments of a subpass, which
+// tilers keep on chip.
 //
 %include nmt_pass2
 

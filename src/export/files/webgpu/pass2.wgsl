@@ -1,7 +1,7 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets of
-// pass 1.
+// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
+// of pass 1.
 //
 %include nmt_pass2
 
