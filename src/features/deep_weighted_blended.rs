@@ -33,6 +33,7 @@ pub const SPEC: FeatureSpec = FeatureSpec {
         bits_per_pixel: BITS_PER_PIXEL,
         has_precisions: false,
     },
+    core: None,
     depth: MomentDepthKind::None,
     output: OutputMeaning::FrontToBackFactor,
     answer: Answer::Sigmoid,

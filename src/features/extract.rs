@@ -1,6 +1,8 @@
 //! Features of fragments, pixel by pixel: what [`FeatureSpec`](super::FeatureSpec) names, with what must be known of
 //! the camera and the scene.
 
+use super::core::CoreSet;
+use super::core::code::Codes;
 use super::deep_weighted_blended::LinearRange;
 use super::recentred::{FragmentTerms, Rounding};
 use super::{FeatureSet, MomentDepthKind};
@@ -17,6 +19,8 @@ use serde::{Deserialize, Serialize};
 pub struct Extractor {
     set: FeatureSet,
     pub(super) scale: DepthScale,
+    /// View depths of the scene, where they are known.
+    depth_range: Option<(f32, f32)>,
     pub(super) precision: SumPrecision,
     pub(super) frame: MomentFrame,
 }
@@ -309,6 +313,7 @@ impl Extractor {
         Ok(Self {
             set,
             scale,
+            depth_range,
             precision: SumPrecision::F32,
             frame: MomentFrame::Scene,
         })
@@ -338,6 +343,16 @@ impl Extractor {
     /// The same with moments in another frame; sets that take no moments of logarithmic depth have none but their own.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
         Self { frame, ..self }
+    }
+
+    /// Codes of single fragments, for sets that keep a core.
+    ///
+    /// # Panics
+    /// If the set keeps none.
+    pub fn codes(&self) -> (CoreSet, Codes) {
+        let set = self.set.spec().core.expect("the set keeps a core");
+        let (v0, v1) = self.depth_range.expect("logarithmic depth has a range");
+        (set, set.layout.codes(v0, v1))
     }
 
     /// Precision of the moments.

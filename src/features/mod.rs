@@ -53,6 +53,20 @@ feature_sets! {
     Recentred6 => recentred::SIX_MOMENTS,
     /// [`Self::Recentred`] with eight moments.
     Recentred8 => recentred::EIGHT_MOMENTS,
+    /// 2 heavy fragments besides both ends, and 4 moments; see [`core`].
+    Core2x4 => core::CORE_2_4,
+    /// 3 heavy fragments besides both ends, and 3 moments; see [`core`].
+    Core3x3 => core::CORE_3_3,
+    /// 4 heavy fragments besides both ends, and 2 moments; see [`core`].
+    Core4x2 => core::CORE_4_2,
+    /// 4 heavy fragments besides both ends, and 4 moments; see [`core`].
+    Core4x4 => core::CORE_4_4,
+    /// 6 heavy fragments besides both ends, and 2 moments; see [`core`].
+    Core6x2 => core::CORE_6_2,
+    /// 4 heavy fragments besides both ends, and 6 moments; see [`core`].
+    Core4x6 => core::CORE_4_6,
+    /// 6 heavy fragments besides both ends, and 4 moments; see [`core`].
+    Core6x4 => core::CORE_6_4,
 }
 
 impl Serialize for FeatureSet {

@@ -37,6 +37,7 @@ pub const SPEC: FeatureSpec = FeatureSpec {
         bits_per_pixel: 352,
         has_precisions: false,
     },
+    core: None,
     depth: MomentDepthKind::Window,
     output: OutputMeaning::Transmittance,
     answer: Answer::Sigmoid,

@@ -17,6 +17,7 @@
 //! fragments to the trainer beside their features, and the trainer would carry the gradient of the features on to the
 //! parameters of the basis.
 
+use super::core::CoreSet;
 use super::{Answer, Extractor, MomentDepthKind, OutputMeaning, Sampled, Target};
 use crate::numeric::rng::Stream;
 use crate::numeric::source::Source;
@@ -34,6 +35,9 @@ pub struct FeatureSpec {
     pub description: &'static [&'static str],
     /// What pass 1 keeps of a pixel.
     pub sums: Sums,
+    /// Single fragments that pass 1 keeps besides, and that pass 2 takes out of the sums; none of most sets. The network then
+    /// answers with the transmittance of what is left.
+    pub core: Option<CoreSet>,
     /// Depth that moments are taken of, and with it what must be known of camera and scene.
     pub depth: MomentDepthKind,
     /// What a network on these features is trained to give.

@@ -2,6 +2,7 @@
 //! spared.
 
 pub mod classes;
+pub mod core;
 pub mod passes;
 mod queue;
 pub mod tiled;
@@ -66,6 +67,19 @@ pub fn answers(
         );
         let tally = match passes {
             Some(passes) => passes.run(list, first..end, switches, || tiled.answers_to_columns(), out, classes),
+            None if extractor.set().spec().core.is_some() => {
+                let (set, codes) = extractor.codes();
+                core::run(
+                    &set,
+                    &codes,
+                    core::Tail::Network(&tiled),
+                    list,
+                    first..end,
+                    switches,
+                    out,
+                    classes,
+                )
+            }
             None => pixel_by_pixel(mlp, extractor, list, first..end, switches, out, classes)?,
         };
         answered.tally.add(&tally);

@@ -1,10 +1,15 @@
 //! Text of the passes of methods that keep a core.
 
-use crate::export::core::{CoreLanguage, codes, stride, weigh};
+use crate::export::core::{CoreLanguage, codes, stride, weigh, weigh_by_network};
 use crate::features::core::CoreSet;
 
-/// Prelude and method of a core whose tail is a beta law.
-pub(super) fn module(set: CoreSet) -> String {
+/// Prelude and method of a core whose tail is shared out by a network, of which this is the export, or where there is
+/// none by a beta law.
+pub(super) fn module(set: CoreSet, network: &str) -> String {
+    let weigh = match network {
+        "" => weigh(set, CoreLanguage::Wgsl),
+        _ => weigh_by_network(set, CoreLanguage::Wgsl),
+    };
     let vectors = stride(set) / 4;
     let listed = |items: Vec<String>| items.join(", ");
     let lanes = ["x", "y", "z", "w"];
@@ -20,10 +25,10 @@ pub(super) fn module(set: CoreSet) -> String {
         .replace("OIT_MOMENTS", &added)
         .replace("OIT_SLOTS", &slots);
     format!(
-        "const OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}",
+        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}",
         set.moments + 2,
         codes(set, CoreLanguage::Wgsl),
-        weigh(set, CoreLanguage::Wgsl),
+        weigh,
         include_str!("absorbance.wgsl"),
     )
 }

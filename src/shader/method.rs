@@ -1,6 +1,7 @@
 //! Methods as WGSL: networks by their exports, and what passes put before any method.
 
 use super::{MethodShader, ShaderError};
+use crate::export::core::MAX_SHADER_MOMENTS;
 use crate::export::{Format, Target};
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
@@ -30,6 +31,18 @@ impl MethodShader {
         let export = crate::export::encode(mlp, format).map_err(|e| refused(e.to_string()))?;
         let export = String::from_utf8(export).expect("shader source is text");
         let set = mlp.feature_set();
+        if let Some(core) = set.spec().core {
+            if core.moments > MAX_SHADER_MOMENTS {
+                return Err(refused(format!(
+                    "a core in shaders has {MAX_SHADER_MOMENTS} moments at most, and this one {}",
+                    core.moments
+                )));
+            }
+            return Ok(Self {
+                source: export,
+                ..Self::of_core(name, core)
+            });
+        }
         let (glue, offers) = match set {
             FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => {
                 let offers = Offers {
@@ -44,6 +57,7 @@ impl MethodShader {
                     "its answer is a blending weight, and has no place in these passes".to_owned(),
                 ));
             }
+            _ => unreachable!("what keeps a core is above"),
         };
         Ok(Self {
             sums: set.moments() + 1,
@@ -81,7 +95,7 @@ impl MethodShader {
     /// f16;`, come first.
     pub fn module(&self) -> String {
         if let Some(set) = self.core {
-            return super::core::module(set);
+            return super::core::module(set, &self.source);
         }
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));

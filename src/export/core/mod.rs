@@ -12,7 +12,7 @@ mod interleaving;
 pub mod weigh;
 
 pub use file::{file_name, named, text, write};
-pub use weigh::weigh;
+pub use weigh::{MAX_SHADER_MOMENTS, weigh, weigh_by_network};
 
 use crate::features::core::CoreSet;
 

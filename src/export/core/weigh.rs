@@ -6,13 +6,14 @@
 use super::CoreLanguage;
 use super::stride;
 use crate::export::dialect::{Glsl, Hlsl, Wgsl};
+use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
-    absorbance_of, described, normalised, place_noise, recentred, share_by_law, share_of_one, share_of_two,
-    transmittance, without,
+    absorbance_feature, absorbance_of, count_feature, described, normalised, place_noise, recentred, share_by_law,
+    share_of_one, share_of_two, transmittance, without,
 };
 use crate::numeric::real::{Constant, Real, c};
-use crate::numeric::source::{Dialect, Source, Type};
+use crate::numeric::source::{Dialect, Expression, Source, Type};
 
 /// Lanes of a vector.
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
@@ -35,13 +36,40 @@ impl CoreLanguage {
     }
 }
 
-/// `nmt_core_transmittance` of a core and what it calls, which stand behind the codes.
+/// Most moments of a core in shaders: those of a vector.
+pub const MAX_SHADER_MOMENTS: usize = 4;
+
+/// Who shares out a tail of which nothing is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tail {
+    Law,
+    Network,
+}
+
+/// `nmt_core_transmittance` of a core whose tail is a beta law, and what it calls, which stand behind the codes.
+///
+/// # Panics
+/// If there are more than [`MAX_SHADER_MOMENTS`] moments.
 pub fn weigh(set: CoreSet, language: CoreLanguage) -> String {
+    whole(set, language, Tail::Law)
+}
+
+/// `nmt_core_transmittance` of a core whose tail a network shares out, and what it calls, which stand behind the codes and
+/// the network's export.
+///
+/// # Panics
+/// If there are more than [`MAX_SHADER_MOMENTS`] moments.
+pub fn weigh_by_network(set: CoreSet, language: CoreLanguage) -> String {
+    whole(set, language, Tail::Network)
+}
+
+fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
+    assert!(set.moments <= MAX_SHADER_MOMENTS, "{set:?}");
     let law = match set.moments {
-        1 => law::<2>(set, language),
-        2 => law::<3>(set, language),
-        3 => law::<4>(set, language),
-        _ => law::<5>(set, language),
+        1 => on_numbers::<2>(set, language, tail),
+        2 => on_numbers::<3>(set, language, tail),
+        3 => on_numbers::<4>(set, language, tail),
+        _ => on_numbers::<5>(set, language, tail),
     };
     let text = match language {
         CoreLanguage::Wgsl => include_str!("weigh.wgsl"),
@@ -122,6 +150,8 @@ struct Query<R: Real, const N: usize> {
     m: [R; N],
     /// The fragment's place in the pixel's range.
     x: R,
+    /// Fragments of the tail.
+    count: R,
     /// The share of the tail in front where exact rules say it.
     exact: R,
     /// Whether they do.
@@ -181,6 +211,7 @@ fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R;
         tail: absorbance,
         m,
         x,
+        count,
         exact,
         is_exact: count.lt(c(most)) | own.z.ge(far) | own.z.le(near),
     }
@@ -205,7 +236,7 @@ pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n
 }
 
 /// `nmt_core_weigh`: the formulas on numbers.
-fn law<const N: usize>(set: CoreSet, language: CoreLanguage) -> String {
+fn on_numbers<const N: usize>(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
     let vectors = stride(set) / 4;
     let names: Vec<[String; 2]> = (0..vectors)
         .map(|i| [format!("depths{i}"), format!("absorbances{i}")])
@@ -233,6 +264,23 @@ fn law<const N: usize>(set: CoreSet, language: CoreLanguage) -> String {
     };
     let moments = source.vec4("moments");
     let b = std::array::from_fn::<_, N, _>(|k| if k == 0 { source.real("b0") } else { moments[k - 1] });
-    source.return_value(weigh_by_law(own, &core, source.real("n"), b, set.layout.depth_bits));
+    let (n, bits) = (source.real("n"), set.layout.depth_bits);
+    match tail {
+        Tail::Law => source.return_value(weigh_by_law(own, &core, n, b, bits)),
+        Tail::Network => ask_network(&source, query(own, &core, n, b, bits)),
+    }
     source.into_text()
+}
+
+/// Ends a function: exact rules, and the exported network where there are none. It answers with e^−(tail in front).
+fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, N>) {
+    source.begin_if(q.is_exact);
+    transmittance(q.front, q.tail, q.exact).named("known");
+    source.statement("return known;");
+    source.end_if();
+    let fixed = [q.x, count_feature(q.count), absorbance_feature(q.tail)];
+    let features: Vec<_> = fixed.into_iter().chain(described(q.m).into_iter().skip(1)).collect();
+    let row = source.array("features", &features);
+    let answer = source.call(ENTRY, &[row]);
+    source.return_value((-q.front).exp() * answer);
 }

@@ -78,6 +78,7 @@ const fn spec<const K: usize>(name: &'static str, answer: &'static str) -> Featu
             bits_per_pixel: 128 + 32 + 16 + 64 + 32 * K as u32,
             has_precisions: true,
         },
+        core: None,
         depth: MomentDepthKind::Log,
         output: OutputMeaning::AbsorbanceShare,
         answer: Answer::AbsorbanceShare {
