@@ -125,11 +125,11 @@ void main() {
         b0 += nmt_core_absorbance(steps);
         moments += nmt_core_moments(steps);
     }
-    for (uint i = offsets[pixel]; i < offsets[pixel + 1u]; i++) {
-        uvec2 steps = nmt_core_steps(view_z[i], absorbance[i], codes);
+    for (uint j = offsets[pixel]; j < offsets[pixel + 1u]; j++) {
+        uvec2 own = nmt_core_steps(view_z[j], absorbance[j], codes);
         uvec4 core0 = slots(8u * pixel);
         uvec4 core1 = slots(8u * pixel + 4u);
-        weights[i] = nmt_core_transmittance(steps, codes, core0, core1, n, b0, moments);
+        weights[j] = nmt_core_transmittance(own, codes, core0, core1, n, b0, moments);
     }
 }
 ";

@@ -1057,11 +1057,9 @@ pub(crate) mod tests {
                     sources.for_each(|source| validate(source).unwrap());
                 }
             }
-            let broken = MethodShader {
-                source: method.source.replace(method.weight, "oit_wait"),
-                ..method
-            };
-            assert!(validate(&Shaders::new(&broken, TargetPrecision::Full, Limits::WEBGPU).pass2).is_err());
+            let whole = Shaders::new(&method, TargetPrecision::Full, Limits::WEBGPU).pass2;
+            let broken = whole.replace(&format!("fn {}(", method.weight), "fn oit_wait(");
+            assert!(broken != whole && validate(&broken).is_err(), "{}", method.name);
         }
     }
 
