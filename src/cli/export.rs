@@ -4,7 +4,7 @@ use super::Verdict;
 use super::ui::Ui;
 use crate::check::rows;
 use crate::export::{self, Format, Precision, Prefix};
-use crate::model::{Mlp, file, simplify};
+use crate::model::{Mlp, shipped, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -48,7 +48,7 @@ const PRUNE_SEED: u64 = 0x0070_7275_6e65;
 pub struct FormatArguments {
     /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars,
     /// "-f16" has hidden layers in f16. Without it: all but the plain ones.
-    #[arg(long, value_parser = format(), value_delimiter = ',')]
+    #[arg(long, value_parser = format(), value_delimiter = ',', num_args = 1..)]
     format: Vec<Format>,
     /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered
     /// for wgsl, hlsl, metal and spirv.
@@ -111,7 +111,7 @@ impl Export {
             }
             return Ok(Verdict::Fine);
         }
-        let whole = file::load(&self.model)?;
+        let whole = shipped::open(&self.model)?;
         let mlp = match self.prune {
             None => whole.clone(),
             Some(0) => bail!("--prune=0: no row says that no unit fires; take 1000000"),

@@ -76,6 +76,7 @@ pub enum MomentFrame {
 
 /// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum SumPrecision {
     /// RGBA32F targets: every sum is rounded to f32.

@@ -18,11 +18,11 @@ use std::borrow::Cow;
 
 /// Makes the enumeration of all feature sets of their names and their [`FeatureSpec`]s.
 macro_rules! feature_sets {
-    ($($(#[$about:meta])* $name:ident => $spec:expr,)*) => {
+    ($($(#[doc = $about:literal])* $name:ident => $spec:expr,)*) => {
         /// A feature set: which numbers, in which order, of which moments.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum FeatureSet {
-            $($(#[$about])* $name,)*
+            $($(#[doc = $about])* $name,)*
         }
 
         impl FeatureSet {
@@ -39,6 +39,24 @@ macro_rules! feature_sets {
                 }
             }
         }
+
+        #[cfg(test)]
+        impl schemars::JsonSchema for FeatureSet {
+            fn schema_name() -> Cow<'static, str> {
+                "FeatureSet".into()
+            }
+
+            fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                schemars::json_schema!({
+                    "description": "A feature set: which numbers, in which order, of which moments.",
+                    "oneOf": [$({
+                        "const": $spec.name,
+                        "description": concat!($($about),*).trim(),
+                        "type": "string",
+                    }),*],
+                })
+            }
+        }
     };
 }
 
@@ -47,7 +65,7 @@ feature_sets! {
     Paper => paper::SPEC,
     /// DWB22's three features; see [`deep_weighted_blended`].
     DeepWeightedBlended => deep_weighted_blended::SPEC,
-    /// The other fragments of a pixel, described from its own depth range by four moments; see [`recentred`].
+    /// What the other fragments look like from the pixel's own depth range, four moments; see [`recentred`].
     Recentred => recentred::FOUR_MOMENTS,
     /// [`Self::Recentred`] with six moments.
     Recentred6 => recentred::SIX_MOMENTS,

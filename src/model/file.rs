@@ -17,6 +17,16 @@ pub enum ModelError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// It is neither a file nor the name of a network that comes with the program.
+    #[error("there is no network '{name}': give the path of a model file, or one of {known}{suggestion}")]
+    Unknown {
+        /// What was given.
+        name: String,
+        /// The names there are.
+        known: String,
+        /// The name that was probably meant.
+        suggestion: String,
+    },
     /// It is not a model file.
     #[error("{}: not a model file: {reason}", path.display())]
     NotAModel {
@@ -181,16 +191,12 @@ pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
     Ok(mlp)
 }
 
-/// Reads a model file; where there is none at the path, and it is the name of a shipped network, that network.
+/// Reads a model file.
 ///
 /// # Errors
 /// [`ModelError`] names the file, the place and the remedy.
 pub fn load(path: &Path) -> Result<Mlp, ModelError> {
-    match (read(path), path.to_str().and_then(super::shipped::json)) {
-        (Ok(bytes), _) => from_json(&bytes, path),
-        (Err(_), Some(json)) => from_json(json.as_bytes(), path),
-        (Err(error), None) => Err(error.into()),
-    }
+    from_json(&read(path)?, path)
 }
 
 /// Writes a model file.

@@ -1,7 +1,11 @@
-//! The networks that are shipped, as they stand in `models/`, inside of the program.
+//! The networks that come with the program, by name.
+
+use super::{Mlp, ModelError, file};
+use crate::numeric::similar::suggestion;
+use std::path::Path;
 
 /// Names and model files.
-const NETWORKS: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 5] = [
     ("recommended", include_str!("../../models/recommended.json")),
     ("small", include_str!("../../models/small.json")),
     ("moments-6", include_str!("../../models/moments-6.json")),
@@ -12,42 +16,57 @@ const NETWORKS: [(&str, &str); 5] = [
     ),
 ];
 
-/// Names of all shipped networks.
+/// Their names, the one to use first.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    NETWORKS.iter().map(|(name, _)| *name)
+    FILES.iter().map(|(name, _)| *name)
 }
 
-/// The model file of a shipped network; none where no network has the name.
-pub fn json(name: &str) -> Option<&'static str> {
-    NETWORKS.iter().find(|(n, _)| *n == name).map(|(_, json)| *json)
+/// The network of that name; none where no network that comes with the program has it.
+///
+/// # Panics
+/// Where its file is damaged, which a test rules out.
+pub fn named(name: &str) -> Option<Mlp> {
+    let (name, text) = FILES.iter().find(|(known, _)| *known == name)?;
+    Some(file::from_json(text.as_bytes(), Path::new(name)).expect("shipped networks are whole"))
+}
+
+/// A network by the path of its file, or by the name of one that comes with the program. A file wins over a name.
+///
+/// # Errors
+/// [`ModelError`]; for a word that is neither, it lists the names.
+pub fn open(model: &Path) -> Result<Mlp, ModelError> {
+    let word = model.to_str().filter(|text| !text.contains(['/', '\\', '.']));
+    match word.filter(|_| !model.exists()) {
+        None => file::load(model),
+        Some(name) => named(name).ok_or_else(|| ModelError::Unknown {
+            name: name.to_owned(),
+            known: names().collect::<Vec<_>>().join(", "),
+            suggestion: suggestion(name, names()),
+        }),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::file;
-    use std::path::Path;
 
-    /// Every model file is there by its name, the same in the program as in the folder; control: a name that is none.
     #[test]
-    fn names_are_those_of_the_folder() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
-        let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
-        let mut stems: Vec<String> = files
-            .filter(|path| path.extension().is_some_and(|e| e == "json"))
-            .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
-            .collect();
-        stems.sort();
-        let mut known: Vec<&str> = names().collect();
-        known.sort();
-        assert_eq!(stems, known);
+    fn shipped_networks_are_whole() {
         for name in names() {
-            assert_eq!(
-                std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap(),
-                json(name).unwrap()
-            );
-            assert_eq!(file::load(Path::new(name)).unwrap().name(), name);
+            assert_eq!(named(name).unwrap().name(), name);
+            assert!(open(Path::new(name)).is_ok());
         }
-        assert!(json("recommend").is_none() && file::load(Path::new("recommend")).is_err());
+    }
+
+    /// Control: a word that is no name is refused with what was probably meant, and a path is read as a file.
+    #[test]
+    fn other_words_are_refused() {
+        let message = open(Path::new("recomended")).unwrap_err().to_string();
+        assert!(
+            message.contains("did you mean 'recommended'?") && message.contains("moments-6"),
+            "{message}"
+        );
+        assert!(matches!(open(Path::new("./small")), Err(ModelError::File(_))));
+        assert!(matches!(open(Path::new("none.json")), Err(ModelError::File(_))));
     }
 }

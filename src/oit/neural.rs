@@ -5,7 +5,7 @@ use super::{Accumulated, Context, Method, MethodError};
 use crate::features::{Extractor, MomentFrame, SumPrecision};
 use crate::infer::{self, Switches};
 pub use crate::infer::{Answered, Skip};
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, shipped};
 use crate::pixel::FragmentList;
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let path = arguments
         .argument
         .ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
-    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model {
+    let mlp = shipped::open(Path::new(path)).map_err(|source| ParseError::Model {
         name: arguments.name.to_owned(),
         source,
     })?;
@@ -174,6 +174,7 @@ mod tests {
     use super::*;
     use crate::features::FeatureSet;
     use crate::infer::{Class, Passes};
+    use crate::model::file;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
     use crate::oit;

@@ -3,9 +3,11 @@
 
 mod bench_gpu;
 mod cli;
+#[path = "../common/mod.rs"]
+mod common;
 mod core;
 mod docs;
-mod fuzz;
+mod documents;
 mod layers;
 mod over_time;
 mod python;
