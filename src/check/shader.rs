@@ -2,6 +2,7 @@
 
 use super::interpret::Interpreter;
 use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH, ROUNDING};
+use crate::export::{Form, Format, Precision, Target};
 use crate::model::Mlp;
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::valid::{Capabilities, ValidationFlags, Validator};

@@ -152,7 +152,7 @@ pub fn on_gpu(mlps: &[Mlp], methods: &[String]) -> Result<Vec<Subject<'static>>,
         .filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended)
     {
         let promise = Subject::network(mlp, Execution::default())?.promise;
-        let shader = MethodShader::neural(mlp, Format::WGSL)?;
+        let shader = MethodShader::neural(mlp, Format::WGSL).map_err(GpuError::from)?;
         let name = format!("{} @ {}", shader.name, gpu.name());
         subjects.push(Subject::new(name, promise, run(shader)).with_network_as_double(mlp));
     }
