@@ -4,6 +4,7 @@
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
 pub mod core;
+pub mod graph;
 pub mod half;
 pub mod hlsl;
 pub mod interpret;
@@ -846,6 +847,12 @@ fn check_onnx(subject: &Subject<'_>, bytes: &[u8], findings: &mut Vec<Finding>) 
     findings.push(
         subject
             .reference
+            .compare(FORMAT, "interpreter", |rows| graph::run(bytes, rows, width)),
+    );
+    #[cfg(feature = "rten")]
+    findings.push(
+        subject
+            .reference
             .compare(FORMAT, "rten", |rows| onnx::rten(bytes, rows, width)),
     );
     findings.push(match onnx::library() {
@@ -974,7 +981,7 @@ mod tests {
             &|_| {},
         ));
         assert!(
-            ["wgsl interpreter", "onnx rten", "json nmt"]
+            ["wgsl interpreter", "onnx interpreter", "json nmt"]
                 .iter()
                 .all(|start| failed.iter().any(|f| f.starts_with(start))),
             "{failed:#?}"
