@@ -605,8 +605,13 @@ fn picture(scene: &Scene, path: &str) -> Result<(), String> {
         .poll(wgpu::PollType::wait_indefinitely())
         .map_err(|e| e.to_string())?;
     let bytes = buffer.get_mapped_range(..).map_err(|e| e.to_string())?.to_vec();
-    let image = image::RgbaImage::from_raw(width, height, bytes).ok_or("the image has another size")?;
-    image.save(path).map_err(|e| format!("{path}: {e}"))?;
+    let failed = |e: &dyn std::fmt::Display| format!("{path}: {e}");
+    let file = std::fs::File::create(path).map_err(|e| failed(&e))?;
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().map_err(|e| failed(&e))?;
+    writer.write_image_data(&bytes).map_err(|e| failed(&e))?;
     println!("{path}: {} on {}", scene.name, renderer.adapter);
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The files of a shader folder: include files, and the three passes as whole files for every graphics API.
 
-use super::calls::{channels, targets};
+use super::calls::{channels, has_passes, targets};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
 use super::{ExportError, Format, encode_as, translate};
@@ -146,7 +146,7 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if set.moment_depth() == MomentDepthKind::None {
+    if !has_passes(set) {
         return Ok(out);
     }
     let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));

@@ -1,14 +1,25 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16,
 //! through one emitter.
 
-use super::dialect::Language;
+use super::dialect::{Glsl, Hlsl, Wgsl};
 use super::{ExportError, Form, Format, Precision, Prefix, calls};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
 use crate::numeric::quantise::round_f16;
-use crate::numeric::source::{Source, Type};
+use crate::numeric::source::{Dialect, Source};
 use std::fmt::Write;
+
+/// A shading language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// WebGPU's.
+    Wgsl,
+    /// OpenGL's and Vulkan's: GLSL 4.50 and GLSL ES 3.00 read it.
+    Glsl,
+    /// Direct3D's, shader model 5 and later.
+    Hlsl,
+}
 
 /// The function that answers; it takes the array of features.
 pub const ENTRY: &str = "nmt_transmittance";
@@ -23,24 +34,71 @@ pub fn network_function(set: FeatureSet) -> &'static str {
     }
 }
 
+impl Language {
+    /// How it spells formulas.
+    pub fn dialect(self) -> &'static dyn Dialect {
+        match self {
+            Self::Wgsl => &Wgsl,
+            Self::Glsl => &Glsl,
+            Self::Hlsl => &Hlsl,
+        }
+    }
+
+    /// A literal that parses back to the same bits: the shortest decimal that names the f32.
+    pub(super) fn literal(self, x: f32) -> String {
+        match self {
+            Self::Wgsl | Self::Hlsl => format!("{x:?}f"),
+            Self::Glsl => format!("{x:?}"),
+        }
+    }
+
+    /// `let name = value;`
+    fn bind(self, kind: &str, name: &str, value: &str) -> String {
+        match self {
+            Self::Wgsl => format!("    let {name} = {value};\n"),
+            Self::Glsl | Self::Hlsl => format!("    {kind} {name} = {value};\n"),
+        }
+    }
+
+    fn function(self, name: &str, width: usize) -> String {
+        match self {
+            Self::Wgsl => format!("fn {name}(f: array<f32, {width}>) -> f32 {{\n"),
+            Self::Glsl | Self::Hlsl => format!("float {name}(float f[{width}]) {{\n"),
+        }
+    }
+}
+
 /// Numbers of one precision in one language.
-#[derive(Clone, Copy)]
-struct Numbers {
-    language: &'static dyn Language,
-    precision: Precision,
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Numbers {
+    pub language: Language,
+    pub precision: Precision,
 }
 
 impl Numbers {
     fn scalar(self) -> &'static str {
-        self.language.scalar(self.precision)
+        match (self.language, self.precision) {
+            (Language::Wgsl, Precision::F32) => "f32",
+            (Language::Wgsl, Precision::F16) => "f16",
+            (_, Precision::F32) => "float",
+            (_, Precision::F16) => "half",
+        }
     }
 
     fn vec4(self) -> String {
-        self.language.vec4(self.precision)
+        match self.language {
+            Language::Wgsl => format!("vec4<{}>", self.scalar()),
+            Language::Glsl => "vec4".to_owned(),
+            Language::Hlsl => format!("{}4", self.scalar()),
+        }
     }
 
     fn mat4(self) -> String {
-        self.language.mat4(self.precision)
+        match self.language {
+            Language::Wgsl => format!("mat4x4<{}>", self.scalar()),
+            Language::Glsl => "mat4".to_owned(),
+            Language::Hlsl => format!("{}4x4", self.scalar()),
+        }
     }
 
     /// A literal of the number as this precision keeps it.
@@ -56,28 +114,44 @@ impl Numbers {
     }
 
     fn splat(self, x: f32) -> String {
-        self.language.splat(&self.vec4(), &self.literal(x))
+        match self.language {
+            Language::Wgsl | Language::Glsl => format!("{}({})", self.vec4(), self.literal(x)),
+            Language::Hlsl => self.vector([x; 4]),
+        }
+    }
+
+    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but
+    /// HLSL's rows.
+    fn product(self, block: &str, activations: &str) -> String {
+        match self.language {
+            Language::Wgsl | Language::Glsl => format!("{block} * {activations}"),
+            Language::Hlsl => format!("mul({activations}, {block})"),
+        }
+    }
+
+    /// `const NAME: TYPE = value;` of a scalar.
+    pub fn scalar_constant(self, name: &str, value: f32) -> String {
+        match self.language {
+            Language::Wgsl => format!("const {name}: {} = {};\n", self.scalar(), self.literal(value)),
+            Language::Glsl => format!("const float {name} = {};\n", self.literal(value)),
+            Language::Hlsl => format!("static const {} {name} = {};\n", self.scalar(), self.literal(value)),
+        }
     }
 
     /// A constant array; items are written several to a line.
     fn array_constant(self, name: &str, element: &str, items: &[String], per_line: usize) -> String {
-        let (head, end) = self.language.module_array(element, name, items.len());
+        let n = items.len();
+        let (head, end) = match self.language {
+            Language::Wgsl => (format!("const {name} = array<{element}, {n}>(\n"), "\n);\n"),
+            Language::Glsl => (format!("const {element} {name}[{n}] = {element}[{n}](\n"), "\n);\n"),
+            Language::Hlsl => (format!("static const {element} {name}[{n}] = {{\n"), "\n};\n"),
+        };
         let lines: Vec<String> = items
             .chunks(per_line)
             .map(|line| format!("    {}", line.join(", ")))
             .collect();
         head + &lines.join(",\n") + end
     }
-}
-
-/// A statement that names a value.
-fn named(language: &dyn Language, of: &str, name: &str, value: &str) -> String {
-    format!("    {}\n", language.named(of, name, value))
-}
-
-/// The head of a function of features f.
-fn function(language: &dyn Language, name: &str, width: usize) -> String {
-    format!("{} {{\n", language.head(name, &[("f", Type::Reals(width))], Type::Real))
 }
 
 /// The f32 with the fewest digits that rounds to the same f16.
@@ -178,8 +252,11 @@ pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Stri
         precision,
         limit,
     };
-    let mut text = language.directives(precision).to_owned();
-    let functions = Source::new(language, "nmt");
+    let mut text = String::new();
+    if language == Language::Wgsl && precision == Precision::F16 {
+        text += "enable f16;\n\n";
+    }
+    let functions = Source::new(language.dialect(), "nmt");
     let shader_calls = &mlp.feature_set().spec().shader;
     (shader_calls.write_features)(&functions);
     let mut body = "\n".to_owned();
@@ -191,7 +268,15 @@ pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Stri
     (shader_calls.write_answers)(&functions);
     text += functions.into_text().trim_start_matches('\n');
     text += &calls::source(language, mlp.feature_set());
-    let text = language.guarded(&include_guard(mlp.name()), text);
+    let guard = include_guard(mlp.name());
+    let text = match language {
+        Language::Wgsl => text,
+        // A second inclusion is none. GLSL ES has no default precision in fragment shaders.
+        Language::Glsl => format!(
+            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n{text}\n#endif\n"
+        ),
+        Language::Hlsl => format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"),
+    };
     let head = comment(&header(mlp, format, prefix, limit));
     Ok(match prefix {
         Some(prefix) => head + &prefix.apply(&text),
@@ -251,13 +336,9 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
         },
     ];
     lines.extend(prefix.map(Prefix::line));
-    lines.extend(
-        format
-            .language()
-            .into_iter()
-            .flat_map(|l| l.notes())
-            .map(|&note| note.to_owned()),
-    );
+    if format.language() == Some(Language::Hlsl) {
+        lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
+    }
     if let Some(limit) = limit {
         lines.extend(half_lines(format.language(), limit, half_bounds(set)));
     }
@@ -305,18 +386,18 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
 }
 
 /// What is to be known of half precision.
-fn half_lines(language: Option<&'static dyn Language>, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
+fn half_lines(language: Option<Language>, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
     let mut lines = vec![
         "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are f32.".to_owned(),
         format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
         format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
     ];
-    lines.extend(
-        language
-            .into_iter()
-            .flat_map(|l| l.half_notes())
-            .map(|&note| note.to_owned()),
-    );
+    if language == Some(Language::Hlsl) {
+        lines.push(
+            "DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."
+                .to_owned(),
+        );
+    }
     lines
 }
 
@@ -387,7 +468,7 @@ pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
 /// A network about to become source.
 struct Network<'a> {
     mlp: &'a Mlp,
-    language: &'static dyn Language,
+    language: Language,
     precision: Precision,
     /// Greatest absolute feature that hidden layers in f16 see.
     limit: Option<f32>,
@@ -421,7 +502,7 @@ impl Network<'_> {
         } else {
             self.of_layer(index - 1)
         };
-        if before.precision == self.of_layer(index).precision {
+        if before == self.of_layer(index) {
             value
         } else {
             format!("{}({value})", kind(self.of_layer(index)))
@@ -439,7 +520,7 @@ impl Network<'_> {
         let _ = write!(
             text,
             "\n// {what}, in [0, 1].\n{}",
-            function(self.language, network_function(set), set.width())
+            self.language.function(network_function(set), set.width())
         );
     }
 
@@ -476,7 +557,7 @@ impl Network<'_> {
                 }
                 // Once a value, not once a term.
                 let name = format!("x{index}_{i}");
-                *text += &named(language, numbers.scalar(), &name, &converted);
+                *text += &language.bind(numbers.scalar(), &name, &converted);
                 name
             };
             let inputs: Vec<String> = (0..dense.inputs()).map(&mut input).collect();
@@ -489,9 +570,8 @@ impl Network<'_> {
                     }
                 }
                 *text += &match index == self.last() {
-                    true => named(language, "float", "logit", &sum),
-                    false => named(
-                        language,
+                    true => language.bind("float", "logit", &sum),
+                    false => language.bind(
                         numbers.scalar(),
                         &format!("h{}_{o}", index + 1),
                         &format!("max({sum}, {})", self.zero(numbers)),
@@ -526,8 +606,8 @@ impl Network<'_> {
             let _ = write!(
                 text,
                 "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
-                function(language, ENTRY, self.mlp.feature_set().width()),
-                named(language, "float", "absorbance", &absorbance),
+                language.function(ENTRY, self.mlp.feature_set().width()),
+                language.bind("float", "absorbance", &absorbance),
             );
         }
         text
@@ -559,11 +639,7 @@ impl Network<'_> {
             }
             if !biases_are_folded(dense) {
                 *text += &if index == self.last() {
-                    numbers.language.module_constant(
-                        numbers.scalar(),
-                        &biases_name(index),
-                        &numbers.literal(dense.biases[0]),
-                    )
+                    numbers.scalar_constant(&biases_name(index), dense.biases[0])
                 } else {
                     let bias = |at: usize| dense.biases.get(at).copied().unwrap_or(0.0);
                     let biases: Vec<String> = (0..outputs)
@@ -592,7 +668,7 @@ impl Network<'_> {
                 value = format!("clamp({value}, {}, {})", single.splat(-limit), single.splat(limit));
             }
             let value = self.converted(0, Numbers::vec4, value);
-            *text += &named(language, &self.of_layer(0).vec4(), &format!("h0_{i}"), &value);
+            *text += &language.bind(&self.of_layer(0).vec4(), &format!("h0_{i}"), &value);
         }
         for (index, dense) in self.mlp.layers().iter().enumerate() {
             let numbers = self.of_layer(index);
@@ -606,14 +682,14 @@ impl Network<'_> {
                 };
                 let terms = (0..inputs).map(|i| format!("dot({weights}[{i}], {})", input(i)));
                 let sum: Vec<String> = (!folded).then(|| biases_name(index)).into_iter().chain(terms).collect();
-                *text += &named(language, "float", "logit", &sum.join(" + "));
+                *text += &language.bind("float", "logit", &sum.join(" + "));
                 continue;
             }
             for g in 0..groups(dense.outputs()) {
                 // A block of nothing but zeros adds nothing.
                 let used = (0..inputs).filter(|&i| block(dense, g, i).iter().flatten().any(|&w| w != 0.0));
                 let terms =
-                    used.map(|i| language.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
+                    used.map(|i| numbers.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
                 let sum: Vec<String> = (!folded)
                     .then(|| format!("{}[{g}]", biases_name(index)))
                     .into_iter()
@@ -631,7 +707,7 @@ impl Network<'_> {
                     let constant: [f32; 4] = std::array::from_fn(|lane| if lane == filled { 1.0 } else { 0.0 });
                     value = format!("{value} + {}", numbers.vector(constant));
                 }
-                *text += &named(language, &numbers.vec4(), &format!("h{}_{g}", index + 1), &value);
+                *text += &language.bind(&numbers.vec4(), &format!("h{}_{g}", index + 1), &value);
             }
         }
         *text += &self.ending();
@@ -642,7 +718,6 @@ impl Network<'_> {
 mod tests {
     use super::*;
     use crate::export::Target;
-    use crate::export::dialect::Glsl;
     use crate::model::Provenance;
     use crate::model::mlp::tests::random_mlp;
 
@@ -714,7 +789,7 @@ mod tests {
             bits = bits.wrapping_mul(1664525).wrapping_add(1013904223);
             let x = f32::from_bits(bits);
             if x.is_finite() {
-                let text = Glsl.literal(x);
+                let text = Language::Glsl.literal(x);
                 assert_eq!(text.parse::<f32>().unwrap().to_bits(), x.to_bits());
                 // Readers that go through f64, as JSON and constant evaluators do.
                 assert_eq!((text.parse::<f64>().unwrap() as f32).to_bits(), x.to_bits(), "{text}");

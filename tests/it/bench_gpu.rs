@@ -1,18 +1,9 @@
 //! `scripts/bench-gpu` on the adapter that is here: a short run gives a table, and raw samples that hold what it says.
 
+use nmt::numeric::require::or_skip;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// Whether a tool that is missing is required; says that it is skipped where it is not.
-fn skipped(tool: &str, why: &str) {
-    let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-    assert!(
-        !required.split(',').any(|name| name.trim() == tool),
-        "{tool} is required: {why}"
-    );
-    println!("skipped: {tool}: {why}");
-}
 
 fn results(path: &Path) -> Vec<Value> {
     let text = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
@@ -25,11 +16,11 @@ fn results(path: &Path) -> Vec<Value> {
 #[test]
 #[cfg(unix)]
 fn a_short_run_makes_a_table() {
-    if let Err(why) = nmt::gpu::Gpu::shared() {
-        return skipped("gpu", &why.to_string());
-    }
-    if Command::new("python3").arg("--version").output().is_err() {
-        return skipped("python3", "not found");
+    let Some(gpu) = or_skip("gpu", nmt::gpu::Gpu::shared()) else {
+        return;
+    };
+    if or_skip("python", Command::new("python3").arg("--version").output()).is_none() {
+        return;
     }
     let folder = tempfile::tempdir().unwrap();
     let run = |scene: &str| {
@@ -75,6 +66,5 @@ fn a_short_run_makes_a_table() {
             "{network}: {table}"
         );
     }
-    let software = nmt::gpu::Gpu::shared().unwrap().is_software();
-    assert_eq!(table.contains("A software adapter"), software);
+    assert_eq!(table.contains("A software adapter"), gpu.is_software());
 }

@@ -1,5 +1,5 @@
-//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the documentation, and an
-//! independent reader.
+//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the
+//! documentation, and an independent reader.
 
 mod bench_gpu;
 mod cli;

@@ -2,7 +2,8 @@
 
 use nmt::check::hlsl::slangc;
 use nmt::export::files::{ShaderFile, files};
-use nmt::model::file;
+use nmt::model::shipped::named;
+use nmt::numeric::require::or_skip;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -14,7 +15,7 @@ fn root() -> PathBuf {
 }
 
 fn expected(network: &str) -> Vec<ShaderFile> {
-    files(&file::load(Path::new(network)).unwrap(), None).unwrap()
+    files(&named(network).unwrap(), None).unwrap()
 }
 
 /// Files below a folder, by their paths with slashes.
@@ -76,19 +77,14 @@ fn the_folder_is_what_export_writes() {
     assert_eq!(folders, known);
 }
 
-fn required(tool: &str) -> bool {
-    let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-    required.split(',').any(|name| name.trim() == tool)
-}
-
-/// A compiler on a file; none where it is not installed.
-fn run(program: &Path, arguments: &[&str], file: &Path) -> Option<Result<(), String>> {
-    let output = Command::new(program).args(arguments).arg(file).output().ok()?;
+/// A compiler on a file.
+fn run(program: &Path, arguments: &[&str], file: &Path) -> std::io::Result<Result<(), String>> {
+    let output = Command::new(program).args(arguments).arg(file).output()?;
     let said = || {
         let text = [output.stdout.as_slice(), &output.stderr].concat();
         String::from_utf8_lossy(&text).into_owned()
     };
-    Some(if output.status.success() { Ok(()) } else { Err(said()) })
+    Ok(if output.status.success() { Ok(()) } else { Err(said()) })
 }
 
 /// Every file of a kind that a compiler reads; the control is a file that names a function that is not there.
@@ -100,9 +96,8 @@ fn compile(program: &Path, tool: &str, kinds: &dyn Fn(&str) -> Option<Vec<Vec<St
             let name = format!("{network}/{path}");
             for arguments in kinds(&path).into_iter().flatten() {
                 let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-                let Some(result) = run(program, &arguments, &root().join(&name)) else {
-                    assert!(!required(tool), "{tool} is required");
-                    return println!("skipped: {tool} is not here");
+                let Some(result) = or_skip(tool, run(program, &arguments, &root().join(&name))) else {
+                    return;
                 };
                 result.unwrap_or_else(|why| panic!("{name} {arguments:?}: {why}"));
                 compiled += 1;
@@ -170,12 +165,8 @@ fn glslang_compiles_every_hlsl_pass() {
 /// Passes, include files, and Unity's functions with them.
 #[test]
 fn slangc_compiles_every_hlsl_file() {
-    let program = match slangc() {
-        Ok(program) => program,
-        Err(why) => {
-            assert!(!required("slangc"), "slangc is required: {why}");
-            return println!("skipped: slangc {why}");
-        }
+    let Some(program) = or_skip("slangc", slangc()) else {
+        return;
     };
     let scratch = tempfile::tempdir().unwrap();
     let out = scratch.path().join("out.hlsl").to_str().unwrap().to_owned();
@@ -218,11 +209,10 @@ fn naga_reads_every_wgsl_file() {
 /// Two networks under prefixes of their own fit one module, in every language; without, their names collide.
 #[test]
 fn two_networks_fit_one_module() {
-    let load = |name: &str| file::load(Path::new(name)).unwrap();
     let both = |prefixes: [Option<&str>; 2], extension: &str| -> String {
         let texts = [("small", prefixes[0]), ("recommended", prefixes[1])].map(|(network, prefix)| {
             let prefix = prefix.map(|p| p.parse().unwrap());
-            let files = files(&load(network), prefix.as_ref()).unwrap();
+            let files = files(&named(network).unwrap(), prefix.as_ref()).unwrap();
             files
                 .into_iter()
                 .find(|f| f.path == format!("{network}.{extension}"))
@@ -244,18 +234,13 @@ fn two_networks_fit_one_module() {
         std::fs::write(&path, text).unwrap();
         run(Path::new("glslangValidator"), &[], &path)
     };
-    match glsl(both([Some("glass"), Some("smoke_2")], "glsl")) {
-        None => {
-            assert!(!required("glslangValidator"), "glslangValidator is required");
-            println!("skipped: glslangValidator is not here");
-        }
-        Some(result) => {
-            result.unwrap();
-            assert!(glsl(both([None, None], "glsl")).unwrap().is_err());
-            // A second inclusion of one network is none.
-            glsl(both([None, Some("smoke_2")], "glsl") + &both([None, Some("smoke_2")], "glsl"))
-                .unwrap()
-                .unwrap();
-        }
-    }
+    let two = glsl(both([Some("glass"), Some("smoke_2")], "glsl"));
+    let Some(result) = or_skip("glslangValidator", two) else {
+        return;
+    };
+    result.unwrap();
+    assert!(glsl(both([None, None], "glsl")).unwrap().is_err());
+    // A second inclusion of one network is none.
+    let twice = both([None, Some("smoke_2")], "glsl").repeat(2);
+    glsl(twice).unwrap().unwrap();
 }

@@ -1,8 +1,5 @@
 //! OpenGL's and Vulkan's language.
 
-use super::Language;
-use crate::export::Precision;
-use crate::features::MomentDepthKind;
 use crate::numeric::source::{Dialect, Type};
 
 /// GLSL; 4.50 and ES 3.00 read it.
@@ -71,53 +68,5 @@ impl Dialect for Glsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("uintBitsToFloat({word})")
-    }
-}
-
-impl Language for Glsl {
-    /// There is no f16 in it.
-    fn scalar(&self, _: Precision) -> &'static str {
-        "float"
-    }
-
-    fn vec4(&self, _: Precision) -> String {
-        "vec4".to_owned()
-    }
-
-    fn mat4(&self, _: Precision) -> String {
-        "mat4".to_owned()
-    }
-
-    fn literal(&self, x: f32) -> String {
-        format!("{x:?}")
-    }
-
-    fn module_constant(&self, of: &str, name: &str, value: &str) -> String {
-        format!("const {of} {name} = {value};\n")
-    }
-
-    fn module_array(&self, element: &str, name: &str, count: usize) -> (String, &'static str) {
-        (
-            format!("const {element} {name}[{count}] = {element}[{count}](\n"),
-            "\n);\n",
-        )
-    }
-
-    /// GLSL ES has no default precision in fragment shaders.
-    fn guarded(&self, guard: &str, text: String) -> String {
-        let precision = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif";
-        format!("#ifndef {guard}\n#define {guard}\n\n{precision}\n\n{text}\n#endif\n")
-    }
-
-    fn calls(&self, depth: MomentDepthKind) -> Option<&'static str> {
-        match depth {
-            MomentDepthKind::Log => Some(include_str!("../calls/recentred.glsl")),
-            MomentDepthKind::Window => Some(include_str!("../calls/paper.glsl")),
-            MomentDepthKind::None => None,
-        }
-    }
-
-    fn resolve(&self) -> &'static str {
-        include_str!("../calls/resolve.glsl")
     }
 }

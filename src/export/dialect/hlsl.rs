@@ -1,8 +1,5 @@
 //! Direct3D's language.
 
-use super::Language;
-use crate::export::Precision;
-use crate::features::MomentDepthKind;
 use crate::numeric::source::{Dialect, Type};
 
 /// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, `out float
@@ -71,71 +68,5 @@ impl Dialect for Hlsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("asfloat({word})")
-    }
-}
-
-impl Language for Hlsl {
-    fn scalar(&self, precision: Precision) -> &'static str {
-        match precision {
-            Precision::F32 => "float",
-            Precision::F16 => "half",
-        }
-    }
-
-    fn vec4(&self, precision: Precision) -> String {
-        format!("{}4", self.scalar(precision))
-    }
-
-    fn mat4(&self, precision: Precision) -> String {
-        format!("{}4x4", self.scalar(precision))
-    }
-
-    fn splat(&self, vec4: &str, literal: &str) -> String {
-        format!("{vec4}({})", [literal; 4].join(", "))
-    }
-
-    fn product(&self, block: &str, activations: &str) -> String {
-        format!("mul({activations}, {block})")
-    }
-
-    fn module_constant(&self, of: &str, name: &str, value: &str) -> String {
-        format!("static const {of} {name} = {value};\n")
-    }
-
-    fn module_array(&self, element: &str, name: &str, count: usize) -> (String, &'static str) {
-        (format!("static const {element} {name}[{count}] = {{\n"), "\n};\n")
-    }
-
-    fn guarded(&self, guard: &str, text: String) -> String {
-        format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n")
-    }
-
-    fn notes(&self) -> &'static [&'static str] {
-        &[
-            "HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out \
-             float[n].",
-        ]
-    }
-
-    fn half_notes(&self) -> &'static [&'static str] {
-        &["DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."]
-    }
-
-    fn calls(&self, depth: MomentDepthKind) -> Option<&'static str> {
-        match depth {
-            MomentDepthKind::Log => Some(include_str!("../calls/recentred.hlsl")),
-            MomentDepthKind::Window => Some(include_str!("../calls/paper.hlsl")),
-            MomentDepthKind::None => None,
-        }
-    }
-
-    fn resolve(&self) -> &'static str {
-        include_str!("../calls/resolve.hlsl")
-    }
-
-    /// There are no constructors.
-    fn members(&self, of: &str, values: &[(String, String)]) -> String {
-        let assign = |(name, value): &(String, String)| format!("    {of}.{name} = {value};");
-        values.iter().map(assign).collect::<Vec<_>>().join("\n")
     }
 }

@@ -1,8 +1,5 @@
 //! WebGPU's language.
 
-use super::Language;
-use crate::export::Precision;
-use crate::features::MomentDepthKind;
 use crate::numeric::source::{Dialect, Type};
 
 /// WGSL.
@@ -73,66 +70,5 @@ impl Dialect for Wgsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("bitcast<f32>({word})")
-    }
-}
-
-impl Language for Wgsl {
-    fn scalar(&self, precision: Precision) -> &'static str {
-        match precision {
-            Precision::F32 => "f32",
-            Precision::F16 => "f16",
-        }
-    }
-
-    fn vec4(&self, precision: Precision) -> String {
-        format!("vec4<{}>", self.scalar(precision))
-    }
-
-    fn mat4(&self, precision: Precision) -> String {
-        format!("mat4x4<{}>", self.scalar(precision))
-    }
-
-    fn named(&self, _: &str, name: &str, value: &str) -> String {
-        format!("let {name} = {value};")
-    }
-
-    fn module_constant(&self, of: &str, name: &str, value: &str) -> String {
-        format!("const {name}: {of} = {value};\n")
-    }
-
-    fn module_array(&self, element: &str, name: &str, count: usize) -> (String, &'static str) {
-        (format!("const {name} = array<{element}, {count}>(\n"), "\n);\n")
-    }
-
-    fn directives(&self, precision: Precision) -> &'static str {
-        match precision {
-            Precision::F32 => "",
-            Precision::F16 => "enable f16;\n\n",
-        }
-    }
-
-    /// Modules are not included; linkers know them by their names.
-    fn guarded(&self, _: &str, text: String) -> String {
-        text
-    }
-
-    fn calls(&self, depth: MomentDepthKind) -> Option<&'static str> {
-        match depth {
-            MomentDepthKind::Log => Some(include_str!("../calls/recentred.wgsl")),
-            MomentDepthKind::Window => Some(include_str!("../calls/paper.wgsl")),
-            MomentDepthKind::None => None,
-        }
-    }
-
-    fn resolve(&self) -> &'static str {
-        include_str!("../calls/resolve.wgsl")
-    }
-
-    fn member(&self, name: &str, of: Type) -> String {
-        format!("{},", self.declared(name, of))
-    }
-
-    fn declared(&self, name: &str, of: Type) -> String {
-        format!("{name}: {}", self.whole_type(of))
     }
 }

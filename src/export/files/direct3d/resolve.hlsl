@@ -1,5 +1,5 @@
-// Direct3D, resolve: draw three vertices of `everywhere` over the opaque image, D3D12_BLEND_OP_ADD, colour by ONE and
-// SRC_ALPHA, alpha by ZERO and ONE.
+// Direct3D, resolve: draw three vertices of `everywhere` over the opaque image, D3D12_BLEND_OP_ADD, source factor ONE,
+// destination factor SRC_ALPHA.
 //
 // Textures: target 0 of pass 1, then the target of pass 2.
 //

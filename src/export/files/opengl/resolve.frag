@@ -1,6 +1,5 @@
 #version {version}
-// {api}, resolve: draw three vertices of fullscreen.vert over the opaque image,
-// glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE).
+// {api}, resolve: draw three vertices of fullscreen.vert over the opaque image, glBlendFunc(GL_ONE, GL_SRC_ALPHA).
 //
 // Textures: target 0 of pass 1, then the target of pass 2.
 //

@@ -1,6 +1,6 @@
 #version 450
-// Vulkan, resolve: draw three vertices of fullscreen.vert over the opaque image, VK_BLEND_OP_ADD, colour by
-// VK_BLEND_FACTOR_ONE and VK_BLEND_FACTOR_SRC_ALPHA, alpha by VK_BLEND_FACTOR_ZERO and VK_BLEND_FACTOR_ONE.
+// Vulkan, resolve: draw three vertices of fullscreen.vert over the opaque image, VK_BLEND_OP_ADD, source factor
+// VK_BLEND_FACTOR_ONE, destination factor VK_BLEND_FACTOR_SRC_ALPHA.
 //
 // Set 0: target 0 of pass 1, then the target of pass 2; input attachments with NMT_SUBPASS defined.
 //

@@ -1,5 +1,5 @@
-// WebGPU, resolve: draw three vertices over the opaque image, blend add, colour by factors one and src-alpha, alpha by
-// zero and one.
+// WebGPU, resolve: draw three vertices over the opaque image, blend add, source factor one, destination factor
+// src-alpha.
 //
 // Textures of group 0: target 0 of pass 1, then the target of pass 2.
 //
