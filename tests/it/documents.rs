@@ -265,6 +265,7 @@ documents! {
     readme: "README.md",
     docs_checks: "docs/checks.md",
     docs_cli: "docs/cli.md",
+    docs_core: "docs/core.md",
     docs_configuration: "docs/configuration.md",
     docs_glossary: "docs/glossary.md",
     docs_input: "docs/input.md",
