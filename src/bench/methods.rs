@@ -111,7 +111,7 @@ pub struct Cost {
     pub both: Vec<f64>,
     /// Seconds of either pass likewise; none where they are not apart, as in networks on the CPU.
     pub passes: Option<Passed>,
-    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see [`Table::front_is_of`].
+    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see [`Table::time`].
     pub on_front: bool,
 }
 
@@ -125,24 +125,19 @@ pub struct Passed {
 }
 
 impl Cost {
-    /// Median of pass 2, or of both passes where those are not apart \[s\].
-    pub fn weights_or_both(&self) -> f64 {
-        Summary::of(self.passes.as_ref().map_or(&self.both, |p| &p.weights)).median
-    }
-
     /// The error that the front is about: the image's where there is one, else that of T.
     pub fn error(&self) -> Option<f64> {
         self.image_mse.or(self.transmittance_mse)
     }
 }
 
-/// Which time the Pareto front is of.
+/// What the methods of a table ran on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FrontTime {
-    /// Pass 2.
-    Weights,
-    /// Both passes.
-    Both,
+pub enum Processor {
+    /// The CPU.
+    Cpu,
+    /// A GPU, in compute passes.
+    Gpu,
 }
 
 /// All methods of one adapter; figures of two adapters are not to be compared.
@@ -152,8 +147,8 @@ pub struct Table {
     pub adapter: String,
     /// Whose clock took the times.
     pub clock: Clock,
-    /// Which time the front is of, against [`Cost::error`].
-    pub front_is_of: FrontTime,
+    /// What they ran on.
+    pub processor: Processor,
     /// Rows, the fastest first.
     pub costs: Vec<Cost>,
     /// What was not measured.
@@ -182,12 +177,10 @@ impl LeftOut {
 }
 
 impl Table {
-    /// The time of a row that the front is about \[s\].
+    /// The time of a row that the front is about, against [`Cost::error`]: both passes, since what one method keeps in pass 1
+    /// another computes in pass 2 \[s\].
     pub fn time(&self, cost: &Cost) -> f64 {
-        match self.front_is_of {
-            FrontTime::Weights => cost.weights_or_both(),
-            FrontTime::Both => Summary::of(&cost.both).median,
-        }
+        Summary::of(&cost.both).median
     }
 
     fn finish(mut self) -> Self {
@@ -343,7 +336,7 @@ impl Setting<'_> {
         Ok(Table {
             adapter: adapter.to_owned(),
             clock: Clock::Wall,
-            front_is_of: FrontTime::Both,
+            processor: Processor::Cpu,
             costs,
             left_out,
         }
@@ -407,7 +400,7 @@ impl Setting<'_> {
         Ok(Table {
             adapter,
             clock,
-            front_is_of: FrontTime::Weights,
+            processor: Processor::Gpu,
             costs,
             left_out,
         }

@@ -3,6 +3,7 @@
 //! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
+pub mod core;
 pub mod graph;
 pub mod half;
 pub mod hlsl;

@@ -14,22 +14,25 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Export {
-    /// Model file, or the name of a shipped network: recommended, small, moments-6, paper, deep-weighted-blended.
+    /// Model file, or the name of a shipped network: recommended, small, moments-6, paper, deep-weighted-blended; or
+    /// core:K, the method without a network, in WGSL, GLSL and HLSL.
     model: PathBuf,
     /// Folder for the exports.
     #[arg(long)]
     out: PathBuf,
     #[command(flatten)]
     formats: FormatArguments,
-    /// What shader names begin with instead of nmt, so that several networks fit one module: functions glass_..., constants GLASS_..., types Glass...
+    /// What shader names begin with instead of nmt, so that several networks fit one module: functions glass_...,
+    /// constants GLASS_..., types Glass...
     #[arg(long, value_name = "NAME")]
     prefix: Option<Prefix>,
-    /// Write a shader folder instead: include files in WGSL, GLSL, HLSL and Metal, and the three passes as whole files for WebGPU, OpenGL, OpenGL ES, Vulkan,
-    /// Direct3D and Metal.
+    /// Write a shader folder instead: include files in WGSL, GLSL, HLSL and Metal, and the three passes as whole files
+    /// for WebGPU, OpenGL, OpenGL ES, Vulkan, Direct3D and Metal.
     #[arg(long, conflicts_with_all = ["format", "precision"])]
     passes: bool,
-    /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone: 1000000). Fewer multiply-adds; where such a unit
-    /// would fire after all, answers are off. The header says which were taken out, and 'nmt check' holds the exports to the whole network.
+    /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone:
+    /// 1000000). Fewer multiply-adds; where such a unit would fire after all, answers are off. The header says which
+    /// were taken out, and 'nmt check' holds the exports to the whole network.
     #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, default_missing_value = "1000000")]
     prune: Option<usize>,
     /// Replace what is there.
@@ -94,6 +97,20 @@ fn hidden(mlp: &Mlp) -> usize {
 
 impl Export {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        if let Some(set) = self.model.to_str().and_then(export::core::named) {
+            if self.passes || self.prefix.is_some() || self.prune.is_some() {
+                bail!("core:K is written as one file a language; --passes, --prefix and --prune are for networks");
+            }
+            let replace = if self.force { Replace::Yes } else { Replace::No };
+            let paths = export::core::write(set, &self.out, replace)?;
+            if ui.json() {
+                ui.print_json("export", paths.iter().map(|path| json!({ "file": path })).collect())?;
+            } else {
+                let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
+                ui.print(&lines)?;
+            }
+            return Ok(Verdict::Fine);
+        }
         let whole = shipped::open(&self.model)?;
         let mlp = match self.prune {
             None => whole.clone(),

@@ -84,7 +84,7 @@ fn render(
 ) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
     let list = DeviceList::new(gpu, list)?;
-    if !is_drawn(gpu, storage) {
+    if !draws(gpu, method, storage) {
         let passes = TilePasses::new(gpu, &list, method, range, background)?;
         passes.run(gpu, skip)?;
         return passes.render(gpu, skip);
@@ -92,6 +92,11 @@ fn render(
     let pipeline = Pipeline::new(gpu, &list, &method.clone().with_skip(skip), range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
+}
+
+/// Whether render passes make the image of a method: it must keep its core, where it has one, in the fragment stage.
+fn draws(gpu: &Gpu, method: &MethodShader, storage: TargetPrecision) -> bool {
+    is_drawn(gpu, storage) && (method.core.is_none() || gpu.has_fragment_atomics())
 }
 
 /// Whether render passes make the image.
@@ -134,8 +139,13 @@ pub fn judge(
     let result = GpuResult {
         method: method.name.clone(),
         adapter: gpu.name(),
-        passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
-        storage: if is_drawn(gpu, storage) {
+        passes: if draws(gpu, method, storage) {
+            "render"
+        } else {
+            "compute"
+        }
+        .to_owned(),
+        storage: if draws(gpu, method, storage) {
             storage
         } else {
             TargetPrecision::Full

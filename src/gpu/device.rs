@@ -80,6 +80,8 @@ const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
 #[derive(Debug)]
 pub struct Gpu {
     info: wgpu::AdapterInfo,
+    /// Whether the fragment stage may write storage buffers.
+    fragment_writes: bool,
     /// The device.
     pub device: wgpu::Device,
     /// Its queue.
@@ -162,6 +164,8 @@ impl Gpu {
                 }
             };
             let info = adapter.get_info();
+            let downlevel = adapter.get_downlevel_capabilities().flags;
+            let fragment_writes = downlevel.contains(wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE);
             let descriptor = wgpu::DeviceDescriptor {
                 label: Some("nmt"),
                 required_features: adapter.features() & wanted,
@@ -170,7 +174,12 @@ impl Gpu {
                 ..Default::default()
             };
             match adapter.request_device(&descriptor).await {
-                Ok((device, queue)) => Ok(Self { info, device, queue }),
+                Ok((device, queue)) => Ok(Self {
+                    info,
+                    fragment_writes,
+                    device,
+                    queue,
+                }),
                 Err(error) => Err(GpuError::NoDevice {
                     adapter: info.name,
                     reason: error.to_string(),
@@ -209,6 +218,11 @@ impl Gpu {
     /// Whether shaders may `enable f16`.
     pub fn has_f16(&self) -> bool {
         self.device.features().contains(wgpu::Features::SHADER_F16)
+    }
+
+    /// Whether the fragment stage has atomic operations on storage buffers.
+    pub fn has_fragment_atomics(&self) -> bool {
+        self.fragment_writes
     }
 
     /// Whether f32 render targets may be blended into.

@@ -2,7 +2,7 @@
 //! around it, each pass timed by itself.
 
 use super::device::{Dispatch, Gpu, GpuError, groups};
-use super::upload::{Chunk, DeviceList, frame};
+use super::upload::{self, Chunk, DeviceList, frame};
 use crate::pixel::{CameraPlanes, FragmentList};
 use crate::shader::MethodShader;
 use crate::shader::compute::{ACCUMULATE, ListShaders, WEIGH};
@@ -18,6 +18,8 @@ pub struct Passes<'a> {
     /// What pass 1 leaves.
     state: wgpu::Buffer,
     weights: wgpu::Buffer,
+    /// Cores, where the method keeps them.
+    core: Option<wgpu::Buffer>,
     frame: wgpu::Buffer,
 }
 
@@ -45,7 +47,8 @@ impl<'a> Passes<'a> {
             weigh: gpu.compute(&name(2), &shaders.weigh, WEIGH)?,
             state: gpu.zeros("what pass 1 leaves", 16 * (shaders.vectors * list.pixels) as u64)?,
             weights: gpu.zeros("weights", 4 * list.fragments as u64)?,
-            frame: frame(gpu, range, (list.pixels as u32, 1), [0.0; 3], 1.0),
+            core: upload::core(gpu, method, list.pixels)?,
+            frame: frame(gpu, method, range, (list.pixels as u32, 1), [0.0; 3], 1.0),
             list,
         })
     }
@@ -66,19 +69,21 @@ impl<'a> Passes<'a> {
         })
     }
 
-    fn accumulate_buffers(&self) -> [&wgpu::Buffer; 5] {
+    fn accumulate_buffers(&self) -> Vec<&wgpu::Buffer> {
         let Chunk { view_z, alpha, .. } = self.chunk;
-        [&self.frame, &self.list.offsets, view_z, alpha, &self.state]
+        let buffers = [&self.frame, &self.list.offsets, view_z, alpha, &self.state];
+        buffers.into_iter().chain(&self.core).collect()
     }
 
-    fn weigh_buffers(&self) -> [&wgpu::Buffer; 6] {
+    fn weigh_buffers(&self) -> Vec<&wgpu::Buffer> {
         let Chunk {
             pixel_of,
             view_z,
             alpha,
             ..
         } = self.chunk;
-        [&self.frame, pixel_of, view_z, alpha, &self.state, &self.weights]
+        let buffers = [&self.frame, pixel_of, view_z, alpha, &self.state, &self.weights];
+        buffers.into_iter().chain(&self.core).collect()
     }
 
     fn accumulate_dispatch<'b>(&'b self, buffers: &'b [&'b wgpu::Buffer]) -> Dispatch<'b> {

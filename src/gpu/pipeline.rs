@@ -6,7 +6,7 @@
 //! otherwise.
 
 use super::device::{Gpu, GpuError, Stamps};
-use super::upload::{Chunk, DeviceList, frame};
+use super::upload::{self, Chunk, DeviceList, frame};
 use crate::pixel::{CameraPlanes, FragmentList};
 use crate::shader::MethodShader;
 use crate::shader::passes::{Channel, Holds, Limits, Shaders, Target, TargetPrecision};
@@ -75,10 +75,12 @@ struct Layouts {
     weighted: wgpu::BindGroupLayout,
     /// What pass 1 left.
     state: wgpu::BindGroupLayout,
+    /// Cores, written in pass 1 and read in pass 2; empty where the method keeps none.
+    cores: [wgpu::BindGroupLayout; 2],
 }
 
 impl Layouts {
-    fn new(gpu: &Gpu, targets: &[Target]) -> Self {
+    fn new(gpu: &Gpu, targets: &[Target], has_core: bool) -> Self {
         let layout = |label, visibility, types: &[wgpu::BindingType]| {
             let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
                 binding,
@@ -107,7 +109,20 @@ impl Layouts {
             multisampled: false,
         };
         let state: Vec<_> = targets.iter().map(|t| texture(t.is_depth())).collect();
+        let core = |read_only| {
+            let buffer = wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            };
+            layout(
+                "cores",
+                wgpu::ShaderStages::FRAGMENT,
+                &[buffer][..usize::from(has_core)],
+            )
+        };
         Self {
+            cores: [false, true].map(core),
             frame: layout("frame", wgpu::ShaderStages::VERTEX_FRAGMENT, &[uniform]),
             fragments: fragments_layout(gpu),
             weighted: layout("weighted colour", wgpu::ShaderStages::FRAGMENT, &[texture(false)]),
@@ -161,6 +176,8 @@ pub struct Pipeline {
     frame: wgpu::BindGroup,
     state: wgpu::BindGroup,
     result: wgpu::BindGroup,
+    /// Cores, where the method keeps them, and their bind groups in pass 1 and pass 2.
+    core: Option<(wgpu::Buffer, [wgpu::BindGroup; 2])>,
 }
 
 /// Seconds of a frame's passes; see [`Gpu::timed`].
@@ -190,6 +207,10 @@ pub struct Rendered {
 /// What [`crate::gpu::GpuError::Lacks`] says where f32 targets cannot be blended into.
 const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 (pipeline::TargetPrecision::Half, for networks), let compute passes \
     add them up (gpu::tiles, which needs no blending), or choose another adapter with WGPU_ADAPTER_NAME";
+
+/// What it says where the fragment stage has no atomics on buffers.
+const ATOMICS: &str = "atomic operations on storage buffers in the fragment stage, by which a core is kept. Let compute \
+    passes keep it (gpu::tiles), or choose another adapter with WGPU_ADAPTER_NAME";
 
 impl Pipeline {
     /// Makes a method ready. `range` is what its depths are measured by; see [`MethodShader::depth_range`].
@@ -228,7 +249,20 @@ impl Pipeline {
                 list.greatest
             )));
         }
+        if method.core.is_some() && !gpu.has_fragment_atomics() {
+            return Err(GpuError::Lacks {
+                adapter: gpu.name(),
+                feature: ATOMICS,
+            });
+        }
+        if method.core.is_some() && precision == TargetPrecision::Half {
+            return Err(GpuError::Source {
+                label: method.name.clone(),
+                reason: "a core is taken out of its pixel's sums again, which f16 is too coarse for".to_owned(),
+            });
+        }
         let (width, height) = list.image_size()?;
+        let cores = upload::core(gpu, method, list.pixels)?;
         let Shaders {
             targets,
             pass1,
@@ -237,7 +271,7 @@ impl Pipeline {
         } = Shaders::new(method, precision, limits);
         gpu.checked(&method.name, || {
             let device = &gpu.device;
-            let layouts = Layouts::new(gpu, &targets);
+            let layouts = Layouts::new(gpu, &targets, method.core.is_some());
             let size = wgpu::Extent3d {
                 width,
                 height,
@@ -284,7 +318,14 @@ impl Pipeline {
                 let resources = buffers.map(wgpu::Buffer::as_entire_binding).to_vec();
                 (chunk.fragments, group("fragments", &layouts.fragments, resources))
             };
-            let frame = frame(gpu, range, (width, height), background, scale_below_1(list.greatest));
+            let frame = frame(
+                gpu,
+                method,
+                range,
+                (width, height),
+                background,
+                scale_below_1(list.greatest),
+            );
 
             let added = Target {
                 channels: 4,
@@ -314,14 +355,24 @@ impl Pipeline {
                     Holds::Farthest => Some(wgpu::CompareFunction::Greater),
                     _ => None,
                 };
-                let layout = [Some(&layouts.frame), Some(&layouts.fragments)];
+                let layout = [
+                    Some(&layouts.frame),
+                    Some(&layouts.fragments),
+                    None,
+                    Some(&layouts.cores[0]),
+                ];
+                let layout = if cores.is_some() && draw[0] == 0 {
+                    &layout[..]
+                } else {
+                    &layout[..2]
+                };
                 (
                     render_pipeline(
                         gpu,
                         "pass 1",
                         &source,
                         ["oit_point", "oit_pass1"],
-                        &layout,
+                        layout,
                         points,
                         depth,
                         &written,
@@ -329,7 +380,13 @@ impl Pipeline {
                     draw,
                 )
             });
-            let all = [Some(&layouts.frame), Some(&layouts.fragments), Some(&layouts.state)];
+            let all = [
+                Some(&layouts.frame),
+                Some(&layouts.fragments),
+                Some(&layouts.state),
+                Some(&layouts.cores[1]),
+            ];
+            let all = if cores.is_some() { &all[..] } else { &all[..3] };
             let last = [Some(&layouts.frame), Some(&layouts.weighted), Some(&layouts.state)];
             let plain = [Some(wgpu::ColorTargetState {
                 format: Rgba32Float,
@@ -347,7 +404,7 @@ impl Pipeline {
                     "pass 2",
                     &pass2,
                     ["oit_point", "oit_pass2"],
-                    &all,
+                    all,
                     points,
                     None,
                     &[blended(added)],
@@ -373,6 +430,11 @@ impl Pipeline {
                     &layouts.weighted,
                     vec![wgpu::BindingResource::TextureView(&weighted)],
                 ),
+                core: cores.map(|buffer| {
+                    let bound = |layout| group("cores", layout, vec![buffer.as_entire_binding()]);
+                    let groups = [0, 1].map(|i| bound(&layouts.cores[i]));
+                    (buffer, groups)
+                }),
                 targets: targets.into_iter().zip(views).collect(),
                 weighted,
                 image,
@@ -406,9 +468,16 @@ impl Pipeline {
                         }),
                         stencil_ops: None,
                     });
+                    let core = self.core.as_ref().filter(|_| index == 0);
+                    if let Some((buffer, _)) = core {
+                        encoder.clear_buffer(buffer, 0, None);
+                    }
                     let mut pass = begin(encoder, "pass 1", &attachments, depth, stamps);
                     pass.set_pipeline(pipeline);
                     pass.set_bind_group(0, &self.frame, &[]);
+                    if let Some((_, groups)) = core {
+                        pass.set_bind_group(3, &groups[0], &[]);
+                    }
                     self.draw(&mut pass);
                 }
                 None if index == draws => {
@@ -422,6 +491,9 @@ impl Pipeline {
                     pass.set_pipeline(&self.pass2);
                     pass.set_bind_group(0, &self.frame, &[]);
                     pass.set_bind_group(2, &self.state, &[]);
+                    if let Some((_, groups)) = &self.core {
+                        pass.set_bind_group(3, &groups[1], &[]);
+                    }
                     self.draw(&mut pass);
                 }
                 None => {
@@ -690,7 +762,7 @@ pub(crate) mod tests {
     }
 
     /// The same pixels with the order of depths turned round: v0 v1 / v, in f32.
-    fn turned(list: &FragmentList) -> FragmentList {
+    pub fn turned(list: &FragmentList) -> FragmentList {
         let (v0, v1) = list.depth_range().unwrap();
         let view_z = list.view_z().iter().map(|v| v0 / v * v1).collect();
         let (width, height) = list.size().unwrap();
@@ -985,11 +1057,9 @@ pub(crate) mod tests {
                     sources.for_each(|source| validate(source).unwrap());
                 }
             }
-            let broken = MethodShader {
-                source: method.source.replace(method.weight, "oit_wait"),
-                ..method
-            };
-            assert!(validate(&Shaders::new(&broken, TargetPrecision::Full, Limits::WEBGPU).pass2).is_err());
+            let whole = Shaders::new(&method, TargetPrecision::Full, Limits::WEBGPU).pass2;
+            let broken = whole.replace(&format!("fn {}(", method.weight), "fn oit_wait(");
+            assert!(broken != whole && validate(&broken).is_err(), "{}", method.name);
         }
     }
 

@@ -9,11 +9,11 @@
 
 use super::device::{Gpu, GpuError, groups};
 use super::pipeline::{FrameSeconds, Rendered};
-use super::upload::{DeviceList, frame};
+use super::upload::{self, DeviceList, frame};
 use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
 use crate::shader::MethodShader;
-use crate::shader::compute::{ACCUMULATE, CLASSIFY, EVERY, LISTED, TILE, TileShaders};
+use crate::shader::compute::{ACCUMULATE, CLASSIFY, EVERY, LISTED, TILE, TILE_CORE, TileShaders};
 
 /// How many pixels there are of each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,11 +52,20 @@ struct Kernel {
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, label: &str, source: &str, entry: &str, buffers: &[&wgpu::Buffer]) -> Result<Self, GpuError> {
+    /// `core` is bound behind all others.
+    fn new(
+        gpu: &Gpu,
+        label: &str,
+        source: &str,
+        entry: &str,
+        buffers: &[&wgpu::Buffer],
+        core: Option<(u32, &wgpu::Buffer)>,
+    ) -> Result<Self, GpuError> {
         let pipeline = gpu.compute(label, source, entry)?;
         let group = gpu.checked(label, || {
             let entries: Vec<_> = (0..)
-                .zip(buffers)
+                .zip(buffers.iter().copied())
+                .chain(core)
                 .map(|(binding, b)| wgpu::BindGroupEntry {
                     binding,
                     resource: b.as_entire_binding(),
@@ -111,23 +120,40 @@ impl TilePasses {
         }
         let chunk = list.whole(gpu)?;
         let (pixels, shaders) = (list.pixels as u64, TileShaders::new(method));
-        let frame = frame(gpu, range, (width, height), background, 1.0);
+        let frame = frame(gpu, method, range, (width, height), background, 1.0);
         let state = gpu.zeros("what pass 1 leaves", 16 * shaders.vectors as u64 * pixels)?;
         let image = gpu.zeros("image", 16 * pixels)?;
         let lists = gpu.zeros("lists of pixels", 4 * (8 + pixels))?;
+        let core = upload::core(gpu, method, list.pixels)?;
+        let core_at = |binding| core.as_ref().map(|buffer| (binding, buffer));
 
         let name = |pass: &str| format!("{}, {pass}", method.name);
         let (view_z, alpha, color) = (&chunk.view_z, &chunk.alpha, &chunk.color);
         let shaded = [&frame, &list.offsets, view_z, alpha, color, &state, &image, &lists];
-        let kernel = |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded);
+        let kernel =
+            |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded, core_at(TILE_CORE));
         let accumulated = [&frame, &list.offsets, view_z, alpha, &state];
         let hiding = shaders.hiding.as_deref();
         Ok(Self {
             name: method.name.clone(),
             width,
             height,
-            accumulate: Kernel::new(gpu, &name("pass 1"), &shaders.accumulate, ACCUMULATE, &accumulated)?,
-            every: Kernel::new(gpu, &name("pass 2"), &shaders.every, EVERY, &shaded[..7])?,
+            accumulate: Kernel::new(
+                gpu,
+                &name("pass 1"),
+                &shaders.accumulate,
+                ACCUMULATE,
+                &accumulated,
+                core_at(5),
+            )?,
+            every: Kernel::new(
+                gpu,
+                &name("pass 2"),
+                &shaders.every,
+                EVERY,
+                &shaded[..7],
+                core_at(TILE_CORE),
+            )?,
             classify: [
                 kernel("pixels told apart", &shaders.classify[0], CLASSIFY)?,
                 kernel("pixels told apart by what is seen", &shaders.classify[1], CLASSIFY)?,

@@ -1,7 +1,9 @@
 //! Fragment lists on the device.
 
 use super::device::{Gpu, GpuError};
+use crate::export::core::stride;
 use crate::pixel::FragmentList;
+use crate::shader::MethodShader;
 
 /// A fragment list on the device: uploaded once, drawn and computed with by every method.
 ///
@@ -116,13 +118,39 @@ impl DeviceList {
 /// The uniform buffer that every pass of a frame reads; see `shader/passes/frame.wgsl`.
 ///
 /// `range` is what depths are measured by, `scale` a power of two that takes every view depth below 1.
-pub(super) fn frame(gpu: &Gpu, range: [f32; 2], size: (u32, u32), background: [f32; 3], scale: f32) -> wgpu::Buffer {
+pub(super) fn frame(
+    gpu: &Gpu,
+    method: &MethodShader,
+    range: [f32; 2],
+    size: (u32, u32),
+    background: [f32; 3],
+    scale: f32,
+) -> wgpu::Buffer {
     let [r, g, b] = background.map(f32::to_bits);
+    let codes = method.core.map_or([[0; 4]; 2], |set| {
+        let codes = set.layout.codes(range[0], range[1]);
+        let signed = [codes.first_bits, codes.last_bits, codes.first_log2].map(|i| i as u32);
+        [
+            [signed[0], signed[1], signed[2], 0],
+            [codes.shift, codes.multiplier, codes.slope, 0],
+        ]
+    });
     let words = [
         [range[0].to_bits(), range[1].to_bits(), size.0, size.1],
         [r, g, b, 0],
         [scale.to_bits(), scale.recip().to_bits(), 0, 0],
-        [0; 4],
+        codes[0],
+        codes[1],
     ];
     gpu.uniform("frame", words.as_flattened())
+}
+
+/// The buffer of the cores of so many pixels; none where a method keeps none.
+///
+/// # Errors
+/// [`GpuError::TooLarge`].
+pub(super) fn core(gpu: &Gpu, method: &MethodShader, pixels: usize) -> Result<Option<wgpu::Buffer>, GpuError> {
+    let bytes = |stride: usize| 4 * stride as u64 * pixels as u64;
+    let buffer = |stride| gpu.zeros("cores of pixels", bytes(stride));
+    method.core.map(|set| buffer(stride(set))).transpose()
 }

@@ -1,7 +1,7 @@
 //! Core and tail without a network: single fragments of a pixel, and the sums of all others shared out by the beta law.
 
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError};
+use super::{Accumulated, Context, Method, MethodError, MethodShader};
 use crate::features::core::CoreSet;
 use crate::features::core::code::MAX_HEAVY;
 use crate::infer::core::{Tail, run};
@@ -55,6 +55,10 @@ impl Accumulated for Answers<'_> {
 impl Method for Core {
     fn name(&self) -> String {
         format!("core:{}", self.set.heavy)
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        Some(MethodShader::of_core(self.name(), self.set))
     }
 
     fn bits_per_pixel(&self) -> u32 {

@@ -87,6 +87,7 @@ impl MomentShader {
             range: own,
             depth: MomentDepthKind::Log,
             composite: Composite::Normalised,
+            core: None,
             offers: Offers::default(),
             weight: WEIGHT,
             source: format!(

@@ -2,6 +2,7 @@
 //! module `shader` makes whole passes of it.
 
 use crate::features::MomentDepthKind;
+use crate::features::core::CoreSet;
 
 /// How a pixel's colour is made of Σ a w C and Σ a w.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,6 +47,9 @@ pub struct MethodShader {
     pub depth: MomentDepthKind,
     /// How the colour is made.
     pub composite: Composite,
+    /// Single fragments that pass 1 keeps beside the sums; then the sums are of what their steps stand for, and the number of
+    /// fragments that absorb comes last.
+    pub core: Option<CoreSet>,
     /// Functions of the source beside the two that every method has.
     pub offers: Offers,
     /// The function that passes call for the weight of a fragment: `oit_weight`, or `oit_visible_weight` where that is
@@ -83,9 +87,25 @@ impl MethodShader {
             range: composite == Composite::Average,
             depth,
             composite,
+            core: None,
             offers: Offers::default(),
             weight: WEIGHT,
             source: format!("{TOTAL}{weight}"),
+        }
+    }
+
+    /// A core and a tail; passes write its functions from the formulas of [`crate::features::core`].
+    pub(crate) fn of_core(name: String, set: CoreSet) -> Self {
+        Self {
+            name,
+            sums: set.moments + 2,
+            range: false,
+            depth: MomentDepthKind::Log,
+            composite: Composite::Normalised,
+            core: Some(set),
+            offers: Offers::default(),
+            weight: WEIGHT,
+            source: String::new(),
         }
     }
 

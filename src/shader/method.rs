@@ -1,6 +1,7 @@
 //! Methods as WGSL: networks by their exports, and what passes put before any method.
 
 use super::{MethodShader, ShaderError};
+use crate::export::core::MAX_SHADER_MOMENTS;
 use crate::export::{Format, Target};
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
@@ -30,6 +31,18 @@ impl MethodShader {
         let export = crate::export::encode(mlp, format).map_err(|e| refused(e.to_string()))?;
         let export = String::from_utf8(export).expect("shader source is text");
         let set = mlp.feature_set();
+        if let Some(core) = set.spec().core {
+            if core.moments > MAX_SHADER_MOMENTS {
+                return Err(refused(format!(
+                    "a core in shaders has {MAX_SHADER_MOMENTS} moments at most, and this one {}",
+                    core.moments
+                )));
+            }
+            return Ok(Self {
+                source: export,
+                ..Self::of_core(name, core)
+            });
+        }
         let (glue, offers) = match set {
             FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => {
                 let offers = Offers {
@@ -44,17 +57,14 @@ impl MethodShader {
                     "its answer is a blending weight, and has no place in these passes".to_owned(),
                 ));
             }
-            _ => {
-                return Err(refused(
-                    "its core needs a buffer of slots, which these passes do not have".to_owned(),
-                ));
-            }
+            _ => unreachable!("what keeps a core is above"),
         };
         Ok(Self {
             sums: set.moments() + 1,
             range: true,
             depth: set.moment_depth(),
             composite: Composite::Normalised,
+            core: None,
             offers,
             weight: WEIGHT,
             source: format!("{export}{glue}"),
@@ -84,6 +94,9 @@ impl MethodShader {
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable
     /// f16;`, come first.
     pub fn module(&self) -> String {
+        if let Some(set) = self.core {
+            return super::core::module(set, &self.source);
+        }
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
@@ -91,16 +104,17 @@ impl MethodShader {
             MomentDepthKind::Window | MomentDepthKind::None => include_str!("depth_window.wgsl"),
         };
         format!(
-            "{}\nconst OIT_SUMS = {}u;\n{}{depth}{}\n",
+            "{}\nconst OIT_SUMS = {}u;\n{}{}{depth}{}\n",
             directives.join("\n"),
             self.sums,
             include_str!("prelude.wgsl"),
+            include_str!("absorbance.wgsl"),
             rest.join("\n")
         )
     }
 
     /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are
-    /// one; or the camera's planes.
+    /// one; or the camera's planes; or v0 and v1, where there is a core.
     ///
     /// # Errors
     /// [`ShaderError`] where planes are needed and unknown.
@@ -110,6 +124,16 @@ impl MethodShader {
         planes: Option<CameraPlanes>,
         depth_range: Option<(f32, f32)>,
     ) -> Result<[f32; 2], ShaderError> {
+        if self.core.is_some() {
+            let (v0, v1) = depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
+            return match v0 > 0.0 && v0 <= v1 && v1.is_finite() {
+                true => Ok([v0, v1]),
+                false => Err(ShaderError {
+                    label: self.name.clone(),
+                    reason: format!("depth range [{v0}, {v1}]; expected 0 < V0 <= V1, both finite"),
+                }),
+            };
+        }
         match self.depth {
             MomentDepthKind::Window => {
                 let planes = planes.or(list.planes()).ok_or_else(|| ShaderError {

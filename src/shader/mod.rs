@@ -5,6 +5,7 @@
 //! filled in.
 
 pub mod compute;
+mod core;
 pub mod method;
 pub mod passes;
 

@@ -13,6 +13,7 @@
 //! depth buffers, a draw each.
 
 use super::MethodShader;
+use crate::export::core::{CoreBinding, CoreLanguage, insert};
 use crate::export::recentred::with_rounding;
 use crate::oit::shader::Composite;
 
@@ -191,6 +192,12 @@ const STATE: &str = include_str!("passes/state.wgsl");
 const PASS2: &str = include_str!("passes/pass2.wgsl");
 const RESOLVE: &str = include_str!("passes/resolve.wgsl");
 
+/// Where render passes find the cores.
+pub const CORE: CoreBinding = CoreBinding { group: 3, binding: 0 };
+const CORE_READ: &str = "\n@group(3) @binding(0) var<storage, read> oit_core: array<vec4<u32>>;\n\n";
+const INSERT: &str = "let place = vec2<u32>(f.position.xy);\n    \
+                      nmt_core_insert(place.y * oit_frame.size.x + place.x, seen.steps, oit_codes());";
+
 /// `fn oit_composite` of a way to composite.
 pub(super) fn composite(composite: Composite) -> &'static str {
     match composite {
@@ -231,7 +238,7 @@ impl Shaders {
         } else {
             module
         };
-        let pass1 = draws.into_iter().map(|draw| {
+        let pass1 = draws.into_iter().enumerate().map(|(index, draw)| {
             if targets[draw[0]].is_depth() {
                 return (format!("{module}{FRAME}{POINTS}{END}"), draw);
             }
@@ -243,14 +250,22 @@ impl Shaders {
             let entry = PASS1
                 .replace("OIT_TARGETS", &declared.join("\n    "))
                 .replace("OIT_TERMS", &terms.join(", "));
-            (format!("{module}{FRAME}{POINTS}{entry}"), draw)
+            // One draw keeps the core.
+            let (call, core) = match method.core {
+                Some(_) if index == 0 => (INSERT, insert(CoreLanguage::Wgsl, CORE)),
+                _ => ("", String::new()),
+            };
+            let entry = entry.replace("OIT_INSERT", call);
+            (format!("{module}{FRAME}{POINTS}{core}{entry}"), draw)
         });
         let state = state(&targets, method.sums);
+        let core_read = if method.core.is_some() { CORE_READ } else { "" };
         Self {
             pass1: pass1.collect(),
             pass2: format!(
-                "{module}{FRAME}{POINTS}{state}{}",
+                "{module}{FRAME}{POINTS}{state}{core_read}{}",
                 PASS2
+                    .replace("OIT_CORE_MEMBER", &super::core::member(method.core))
                     .replace("OIT_RANGE", &range(&targets))
                     .replace("OIT_WEIGHT", method.weight)
             ),

@@ -6,7 +6,6 @@ struct OitFragment { v: f32, z: f32, alpha: f32, absorbance: f32 }
 // method's kind.
 struct OitPixel { sums: array<f32, OIT_SUMS>, n: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32 }
 
-fn oit_absorbance(alpha: f32) -> f32 {
-    let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 0.000045399931)), faint, alpha < 0.03);
+fn oit_fragment_at(v: f32, alpha: f32) -> OitFragment {
+    return OitFragment(v, oit_depth(v, oit_frame.range), alpha, oit_absorbance(alpha));
 }

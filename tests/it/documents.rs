@@ -122,6 +122,7 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
         "hair",
         "foliage",
         "spheres",
+        "sphere-cluster",
         "teapots",
     ];
     let renders = words
@@ -264,11 +265,13 @@ documents! {
     readme: "README.md",
     docs_checks: "docs/checks.md",
     docs_cli: "docs/cli.md",
+    docs_core: "docs/core.md",
     docs_configuration: "docs/configuration.md",
     docs_glossary: "docs/glossary.md",
     docs_input: "docs/input.md",
     docs_integration: "docs/integration.md",
     docs_methods: "docs/methods.md",
+    docs_over_time: "docs/over-time.md",
     docs_page: "docs/page.md",
     docs_performance: "docs/performance.md",
     docs_skip: "docs/skip.md",

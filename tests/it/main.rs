@@ -5,6 +5,7 @@ mod bench_gpu;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod core;
 mod docs;
 mod documents;
 mod layers;

@@ -12,13 +12,16 @@ fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(nu
         return;
     }
     var sums: array<f32, OIT_SUMS>;
+    OIT_CORE_VARIABLE
     var nearest = 3.0e38;
     var farthest = 0.0;
     for (var i = oit_offsets[pixel]; i < oit_offsets[pixel + 1u]; i++) {
         let v = oit_view_z[i];
         let alpha = oit_alpha[i];
-        let term = oit_accumulate(OitFragment(v, oit_depth(v, oit_frame.range), alpha, oit_absorbance(alpha)));
+        let f = oit_fragment_at(v, alpha);
+        let term = oit_accumulate(f);
         OIT_ADD
+        OIT_INSERT
         nearest = min(nearest, v);
         farthest = max(farthest, v);
     }

@@ -3,8 +3,10 @@
 //! [`ListShaders`] are a method's arithmetic without a renderer around it; [`TileShaders`] make an image, with the
 //! network only for the fragments that need it.
 
-use super::MethodShader;
 use super::passes::{FRAME, composite};
+use super::{MethodShader, core};
+use crate::export::core::stride;
+use crate::features::core::CoreSet;
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
 use crate::oit::shader::Composite;
 
@@ -18,6 +20,13 @@ pub const EVERY: &str = "oit_every_pixel";
 pub const CLASSIFY: &str = "oit_classify";
 /// Entry point of [`TileShaders::network`] and [`TileShaders::hiding`], dispatched indirectly.
 pub const LISTED: &str = "oit_listed_pixels";
+
+/// The buffer of cores in pass 1, where a method keeps them.
+const CORE_WRITTEN: &str = "\n@group(0) @binding(5) var<storage, read_write> oit_core: array<u32>;\n";
+/// Binding of the cores in pass 2 of [`ListShaders`].
+const LIST_CORE: u32 = 6;
+/// Binding of the cores in [`TileShaders`] behind pass 1.
+pub const TILE_CORE: u32 = 8;
 
 /// Pixels of a workgroup in each direction.
 pub const TILE: u32 = 8;
@@ -34,6 +43,7 @@ const MIN_OPACITY: f32 = 1.0 / 512.0;
 struct State {
     sums: usize,
     range: bool,
+    core: Option<CoreSet>,
 }
 
 impl State {
@@ -66,12 +76,25 @@ impl State {
         };
         let add: Vec<String> = (0..self.sums).map(|i| format!("sums[{i}] += term[{i}];")).collect();
         let stores: Vec<String> = (0..vectors).map(store).collect();
-        include_str!("accumulate.wgsl")
+        let mut stores: Vec<String> = stores;
+        let (mut head, mut variable, mut insert) = (String::new(), "", "");
+        if let Some(set) = self.core {
+            let slot = |i: usize| format!("oit_core[pixel * NMT_SLOTS + {i}u] = core[{i}];");
+            stores.extend((0..stride(set)).map(slot));
+            head = format!("{CORE_WRITTEN}{}", core::list(set));
+            variable = "var core: array<u32, NMT_SLOTS>;";
+            insert = "oit_insert(&core, f.steps);";
+        }
+        let text = include_str!("accumulate.wgsl")
             .replace("OIT_ADD", &add.join(" "))
             .replace("OIT_STORE", &stores.join("\n    "))
+            .replace("OIT_CORE_VARIABLE", variable)
+            .replace("OIT_INSERT", insert);
+        head + &text
     }
 
-    fn load(self) -> String {
+    /// `fn oit_pixel`; the core is read from this binding.
+    fn load(self, binding: u32) -> String {
         let vectors = self.vectors();
         let loads: Vec<String> = (0..vectors)
             .map(|i| format!("let state{i} = oit_state[pixel * {vectors}u + {i}u];"))
@@ -85,17 +108,22 @@ impl State {
             // As one fragment at depth 1.
             "0.0, 1.0, 1.0, 0.0, 0.0".to_owned()
         };
-        include_str!("state.wgsl")
+        let core = self.core.map_or(String::new(), |_| {
+            format!("\n@group(0) @binding({binding}) var<storage, read> oit_core: array<vec4<u32>>;\n\n")
+        });
+        let text = include_str!("state.wgsl")
+            .replace("OIT_CORE_MEMBER", &core::member(self.core))
             .replace("OIT_LOAD", &loads.join("\n    "))
             .replace("OIT_PARTS", &sums.join(", "))
-            .replace("OIT_RANGE", &range)
+            .replace("OIT_RANGE", &range);
+        core + &text
     }
 }
 
 /// Both passes of a method over a list, as whole WGSL modules.
 ///
 /// Bind group 0: 0 the frame; 1 offsets of pixels in pass 1, pixels of fragments in pass 2; 2 view depths; 3 opacities;
-/// 4 what pass 1 leaves; 5 weights.
+/// 4 what pass 1 leaves; 5 weights. Where a method keeps cores, they are binding 5 of pass 1 and 6 of pass 2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListShaders {
     /// Pass 1.
@@ -112,12 +140,13 @@ impl ListShaders {
         let state = State {
             sums: method.sums,
             range: method.range,
+            core: method.core,
         };
         let module = method.module();
         let weigh = include_str!("weigh.wgsl").replace("OIT_WEIGHT", method.weight);
         Self {
             accumulate: format!("{module}{FRAME}{}", state.accumulate()),
-            weigh: format!("{module}{FRAME}{}{weigh}", state.load()),
+            weigh: format!("{module}{FRAME}{}{weigh}", state.load(LIST_CORE)),
             vectors: state.vectors(),
         }
     }
@@ -130,7 +159,7 @@ impl ListShaders {
 /// `hiding` shade the listed ones.
 ///
 /// Bind group 0 behind pass 1: 0 the frame, 1 offsets, 2 view depths, 3 opacities, 4 colours, 5 what pass 1 left, 6 the
-/// image, 7 the lists of pixels.
+/// image, 7 the lists of pixels, 8 the cores where a method keeps them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TileShaders {
     /// Pass 1; its bindings are those of [`ListShaders`].
@@ -153,13 +182,14 @@ impl TileShaders {
         let state = State {
             sums: method.sums,
             range: true,
+            core: method.core,
         };
         let module = method.module();
         let composite = composite(method.composite);
         let shared = format!(
             "{module}{FRAME}{composite}{}{}",
             include_str!("shade.wgsl"),
-            state.load()
+            state.load(TILE_CORE)
         );
         let hiding = include_str!("hiding.wgsl")
             .replace("OIT_HIDDEN", &format!("{HIDDEN:?}"))

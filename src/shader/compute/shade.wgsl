@@ -11,7 +11,7 @@
 fn oit_fragment(i: u32) -> OitFragment {
     let v = oit_view_z[i];
     let alpha = oit_alpha[i];
-    return OitFragment(v, oit_depth(v, oit_frame.range), alpha, oit_absorbance(alpha));
+    return oit_fragment_at(v, alpha);
 }
 
 fn oit_weighted(i: u32, weight: f32) -> vec4<f32> {

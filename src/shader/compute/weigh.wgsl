@@ -15,6 +15,6 @@ fn oit_weigh_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wor
     }
     let v = oit_view_z[i];
     let alpha = oit_alpha[i];
-    let seen = OitFragment(v, oit_depth(v, oit_frame.range), alpha, oit_absorbance(alpha));
+    let seen = oit_fragment_at(v, alpha);
     oit_weights[i] = OIT_WEIGHT(seen, oit_pixel(oit_pixel_of[i]));
 }

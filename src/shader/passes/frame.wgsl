@@ -8,6 +8,9 @@ struct OitFrame {
     background: vec4<f32>,
     // A power of two that takes every v below 1, and its inverse; for depth buffers.
     scale: vec2<f32>,
+    // Numbers that make codes of fragments, where a core is kept: the first as integers.
+    codes: vec4<i32>,
+    more_codes: vec4<u32>,
 }
 
 @group(0) @binding(0) var<uniform> oit_frame: OitFrame;

@@ -8,5 +8,6 @@ struct OitTargets {
 fn oit_pass1(f: OitVarying) -> OitTargets {
     let seen = oit_seen(f);
     let terms = oit_accumulate(seen);
+    OIT_INSERT
     return OitTargets(OIT_TERMS);
 }

@@ -2,7 +2,10 @@
 
 fn oit_pixel(at: vec2<i32>) -> OitPixel {
     OIT_RANGE
-    return OitPixel(oit_sums(at), oit_count(at), nearest, farthest, oit_depth(nearest, oit_frame.range), oit_depth(farthest, oit_frame.range));
+    let pixel = u32(at.y) * oit_frame.size.x + u32(at.x);
+    let z_nearest = oit_depth(nearest, oit_frame.range);
+    let z_farthest = oit_depth(farthest, oit_frame.range);
+    return OitPixel(oit_sums(at), oit_count(at), nearest, farthest, z_nearest, z_farthest OIT_CORE_MEMBER);
 }
 
 @fragment

@@ -27,5 +27,5 @@ fn oit_point(@builtin(vertex_index) i: u32) -> OitVarying {
 }
 
 fn oit_seen(f: OitVarying) -> OitFragment {
-    return OitFragment(f.v, oit_depth(f.v, oit_frame.range), f.color.a, oit_absorbance(f.color.a));
+    return oit_fragment_at(f.v, f.color.a);
 }
