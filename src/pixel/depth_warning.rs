@@ -66,9 +66,16 @@ impl FragmentList {
     /// Fragments of alpha 0 are not looked at: they hide nothing, wherever they are.
     pub fn depth_warnings(&self, planes: Option<CameraPlanes>) -> Vec<DepthWarning> {
         let mut warnings = Vec::new();
-        let seen = || self.view_z().par_iter().zip(self.alpha()).filter(|(_, a)| **a > 0.0).map(|(z, _)| *z);
+        let seen = || {
+            self.view_z()
+                .par_iter()
+                .zip(self.alpha())
+                .filter(|(_, a)| **a > 0.0)
+                .map(|(z, _)| *z)
+        };
         let fragments = seen().count() as u64;
-        let Some(((least, greatest), planes)) = self.depth_range().map(|range| (range, planes.or(self.planes()))) else {
+        let Some(((least, greatest), planes)) = self.depth_range().map(|range| (range, planes.or(self.planes())))
+        else {
             return warnings;
         };
         if fragments == 0 {
@@ -92,14 +99,24 @@ impl FragmentList {
             .into_par_iter()
             .map(|p| {
                 let pixel = self.pixel(p);
-                let own = || pixel.view_z.iter().zip(pixel.alpha).filter(|(_, a)| **a > 0.0).map(|(z, _)| *z);
+                let own = || {
+                    pixel
+                        .view_z
+                        .iter()
+                        .zip(pixel.alpha)
+                        .filter(|(_, a)| **a > 0.0)
+                        .map(|(z, _)| *z)
+                };
                 let (n, nearest) = (own().count(), own().fold(f32::INFINITY, f32::min));
                 let ties = own().filter(|z| *z == nearest).count();
                 (u64::from(n > 1), u64::from(n > 1 && ties > 1 && 2 * ties >= n))
             })
             .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
         if pixels > 0 && least == greatest {
-            warnings.push(DepthWarning::AllEqual { fragments, view_z: least });
+            warnings.push(DepthWarning::AllEqual {
+                fragments,
+                view_z: least,
+            });
         } else if 2 * tied > pixels {
             warnings.push(DepthWarning::MostlyTied { tied, pixels });
         }
@@ -128,19 +145,39 @@ mod tests {
     fn depths_that_are_none_are_told_from_depths() {
         let planes = |near, far| Some(CameraPlanes::new(near, far).unwrap());
         // The control: nothing is wrong, whatever a fragment of alpha 0 says.
-        let good = list(&[&[(2.0, 0.5), (3.0, 0.5), (1e30, 0.0)], &[(2.0, 0.5), (2.0, 0.25), (4.0, 0.5)]]);
+        let good = list(&[
+            &[(2.0, 0.5), (3.0, 0.5), (1e30, 0.0)],
+            &[(2.0, 0.5), (2.0, 0.25), (4.0, 0.5)],
+        ]);
         assert_eq!(good.depth_warnings(planes(1.0, 10.0)), []);
         assert_eq!(list(&[&[(0.5, 0.5)]]).depth_warnings(None), []);
         let equal = list(&[&[(1.0, 0.5), (1.0, 0.5)], &[(1.0, 0.1)]]);
-        assert!(matches!(equal.depth_warnings(None)[..], [DepthWarning::AllEqual { fragments: 3, .. }]));
+        assert!(matches!(
+            equal.depth_warnings(None)[..],
+            [DepthWarning::AllEqual { fragments: 3, .. }]
+        ));
         let tied = list(&[&[(1.0, 0.5), (1.0, 0.5), (2.0, 0.5)], &[(3.0, 0.1), (3.0, 0.5)]]);
-        assert_eq!(tied.depth_warnings(None), [DepthWarning::MostlyTied { tied: 2, pixels: 2 }]);
+        assert_eq!(
+            tied.depth_warnings(None),
+            [DepthWarning::MostlyTied { tied: 2, pixels: 2 }]
+        );
         let window = list(&[&[(0.99, 0.5), (0.995, 0.5)]]);
-        assert!(matches!(window.depth_warnings(planes(0.1, 100.0))[..], [DepthWarning::WindowLike { .. }]));
+        assert!(matches!(
+            window.depth_warnings(planes(0.1, 100.0))[..],
+            [DepthWarning::WindowLike { .. }]
+        ));
         assert_eq!(window.depth_warnings(planes(0.1, 1.0)), []);
         let outside = good.depth_warnings(planes(2.5, 3.5));
         assert!(
-            matches!(outside[..], [DepthWarning::OutsidePlanes { outside: 4, fragments: 5, view_z: 2.0, .. }]),
+            matches!(
+                outside[..],
+                [DepthWarning::OutsidePlanes {
+                    outside: 4,
+                    fragments: 5,
+                    view_z: 2.0,
+                    ..
+                }]
+            ),
             "{outside:?}"
         );
     }

@@ -161,7 +161,9 @@ pub enum FragmentError {
         pixels: usize,
     },
     /// The data window is not of the image's size, or the display window is empty.
-    #[error("data window {data:?}, display window {display:?}; the first must have as many columns and rows as the image, the second at least one")]
+    #[error(
+        "data window {data:?}, display window {display:?}; the first must have as many columns and rows as the image, the second at least one"
+    )]
     Windows {
         /// x_min, y_min, x_max, y_max.
         data: [i32; 4],
@@ -233,7 +235,9 @@ impl FragmentList {
             });
         }
         if let Some(color) = &color
-            && let Some(index) = color.iter().position(|c| c.iter().any(|x| !(0.0..f32::INFINITY).contains(x)))
+            && let Some(index) = color
+                .iter()
+                .position(|c| c.iter().any(|x| !(0.0..f32::INFINITY).contains(x)))
         {
             return Err(FragmentError::Color {
                 index,
@@ -485,7 +489,10 @@ mod tests {
         assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
         let misses = list(&[0, 3], &[1e30, 2.0, 3.0], &[0.0, 1.0, 0.5]).unwrap();
         assert_eq!(misses.depth_range(), Some((2.0, 3.0)));
-        assert_eq!(list(&[0, 1], &[1e30], &[0.0]).unwrap().depth_range(), Some((1e30, 1e30)));
+        assert_eq!(
+            list(&[0, 1], &[1e30], &[0.0]).unwrap().depth_range(),
+            Some((1e30, 1e30))
+        );
         let twice = ties.followed_by(&ties);
         assert_eq!(
             (twice.pixels(), twice.len(), twice.range(4), twice.range(5)),

@@ -31,7 +31,11 @@ impl LeftOut {
 
 impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "left out: {} ({}), {}: {}", self.what, self.count, self.place, self.remedy)
+        write!(
+            f,
+            "left out: {} ({}), {}: {}",
+            self.what, self.count, self.place, self.remedy
+        )
     }
 }
 
@@ -40,7 +44,10 @@ pub fn note(all: &mut Vec<LeftOut>, new: LeftOut) {
     if new.count == 0 {
         return;
     }
-    match all.iter_mut().find(|old| old.what == new.what && old.place == new.place) {
+    match all
+        .iter_mut()
+        .find(|old| old.what == new.what && old.place == new.place)
+    {
         Some(old) => old.count += new.count,
         None => all.push(new),
     }
@@ -60,6 +67,9 @@ mod tests {
         assert_eq!(all.iter().map(|l| l.count).collect::<Vec<_>>(), [5, 1]);
         assert_eq!(all[0].to_string(), "left out: lines (5), a.obj: faces are read");
         let json = serde_json::to_string(&all[1]).unwrap();
-        assert_eq!(json, r#"{"what":"lines","where":"b.obj","count":1,"remedy":"faces are read"}"#);
+        assert_eq!(
+            json,
+            r#"{"what":"lines","where":"b.obj","count":1,"remedy":"faces are read"}"#
+        );
     }
 }

@@ -1,4 +1,6 @@
-//! Fragment lists from scenes: meshes and built-in scenes seen through a camera, and files of other renderers.
+//! Fragment lists from scenes: meshes, Gaussian splats and built-in scenes seen through a camera, and files of other renderers.
+//!
+//! What a file holds is read, refused with an error, or named in [`FragmentList::left_out`].
 
 pub mod camera;
 pub mod exr;
@@ -7,9 +9,11 @@ mod mesh;
 pub mod npz;
 mod procedural;
 mod raster;
+pub mod splat;
+mod texture;
 
 pub use camera::Camera;
-pub use file::{Look, MeshEntry, SceneFile};
+pub use file::{Look, MeshEntry, SceneFile, SplatEntry};
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
@@ -17,7 +21,15 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 6] = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
+pub const BUILT_IN: [&str; 7] = [
+    "glass-stacks",
+    "smoke",
+    "hair",
+    "foliage",
+    "spheres",
+    "teapots",
+    "splats",
+];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
 pub const MAX_FRAGMENTS: u64 = 1 << 28;
@@ -121,7 +133,7 @@ impl SceneError {
     }
 }
 
-/// A scene by its name: a built-in one, or else a scene file's path.
+/// A scene by its name: a built-in one, or else the path of a scene file, of a mesh or of a file of splats.
 ///
 /// # Errors
 /// [`SceneError`] names what is wrong, and where; for a name that is neither, the built-in scenes.
@@ -133,7 +145,10 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
     if path.extension().is_none() && !path.exists() {
         return Err(SceneError::UnknownBuiltIn { name: name.to_owned() });
     }
-    SceneFile::read(path)
+    match SceneFile::of_file(path) {
+        Some(scene) => Ok(scene),
+        None => SceneFile::read(path),
+    }
 }
 
 /// The fragments of a scene, with colours, image size and camera planes.
@@ -144,6 +159,14 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
 pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
+    Ok(scene.build(options)?.0)
+}
+
+/// As [`build`], with the camera that saw them, which is placed for the content where the scene file gives none.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with_camera(scene: &SceneFile, options: &Options) -> Result<(FragmentList, Camera), SceneError> {
     scene.build(options)
 }
 
@@ -188,6 +211,7 @@ mod tests {
             ("foliage", 10),
             ("spheres", 6),
             ("teapots", 6),
+            ("splats", 101),
         ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
@@ -244,7 +268,7 @@ mod tests {
                 .to_string()
         };
         let cases = [
-            (error(String::new()), "built_in, mesh: neither"),
+            (error(String::new()), "built_in, mesh, splats: none"),
             (error("built_in = \"moon\"".to_owned()), "one of glass-stacks"),
             (error("surprise = 1".to_owned()), "surprise"),
             (
@@ -272,7 +296,10 @@ mod tests {
                 error(format!("{camera}[[mesh]]\nfile = \"a.obj\"\nalpha = 1.5")),
                 "mesh[0].alpha: 1.5",
             ),
-            (error("[[mesh]]\nfile = \"a.obj\"".to_owned()), "camera: it is missing"),
+            (
+                error("[[splats]]\nfile = \"a.ply\"\nscale = 0".to_owned()),
+                "splats[0].scale: 0",
+            ),
         ];
         for (message, part) in cases {
             assert!(
@@ -309,7 +336,7 @@ mod tests {
             (
                 "i.obj",
                 "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(),
-                "material library",
+                "line 2: Kd '0.5 1'",
             ),
             (
                 "h.gltf",
@@ -331,8 +358,11 @@ mod tests {
         for (name, content, part) in cases {
             let path = folder.path().join(name);
             std::fs::write(&path, content).unwrap();
-            let message = mesh::load(&path, true).unwrap_err().to_string();
-            assert!(message.contains(part) && message.contains(name), "{message} / {part}");
+            let scene = SceneFile::of_file(&path)
+                .unwrap_or_else(|| SceneFile::parse(&path, &format!("[[mesh]]\nfile = '{name}'")).unwrap());
+            let message = build(&scene, &Options::default()).unwrap_err().to_string();
+            let file = if name == "i.obj" { "two.mtl" } else { name };
+            assert!(message.contains(part) && message.contains(file), "{message} / {part}");
         }
     }
 }
