@@ -1,6 +1,6 @@
 //! `nmt profile`
 
-use super::scene::{SceneOptions, ViewOptions, load};
+use super::scene::{SceneOptions, ViewOptions, load, refuse_outside};
 use super::ui::{Ui, table};
 use super::{Verdict, interrupt, keep_inputs};
 use crate::features::MomentDepthKind;
@@ -70,7 +70,8 @@ impl Profile {
             }
         }
         let context = self.view.context()?;
-        let list = load(&self.fragments, &self.options)?;
+        let list = load(ui, &self.fragments, &self.options)?;
+        refuse_outside(&list, context.planes)?;
         let scene = Scene::new(&list, context, background);
         match (&self.specialise, &self.simplify) {
             (Some(model), _) => self.specialise(ui, &scene, model, replace),
@@ -124,7 +125,7 @@ impl Profile {
         });
         if let Some(folder) = &self.out {
             create_folder(folder)?;
-            let json = serde_json::to_string_pretty(&super::ui::report("profile", vec![result.clone()]))? + "\n";
+            let json = serde_json::to_string_pretty(&ui.report("profile", vec![result.clone()]))? + "\n";
             let drawing = plot::svg(&format!("{name}: {} fragments", facts.fragments), &facts)?;
             for (file, text) in FILES.iter().zip([&json, &drawing, &recommendation.config]) {
                 write_atomically(&folder.join(file), replace, |w| w.write_all(text.as_bytes()))?;

@@ -168,7 +168,7 @@ impl Stress {
         let results = results(&cases, &reports, &features, &found, &biases, &points);
         if let Some(out) = &self.out {
             create_folder(out)?;
-            let text = serde_json::to_string_pretty(&report("stress", results.clone()))? + "\n";
+            let text = serde_json::to_string_pretty(&ui.report("stress", results.clone()))? + "\n";
             write_atomically(&out.join(RESULTS), replace, |w| w.write_all(text.as_bytes()))?;
             charts(out, replace, &points)?;
         }

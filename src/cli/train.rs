@@ -5,8 +5,8 @@ use super::ui::Ui;
 use super::{Verdict, generate, interrupt, keep_inputs};
 use crate::dataset::{Dataset, file as dataset_file};
 use crate::model::{Mlp, Provenance, file};
-use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
-use crate::train::checkpoint::{Losses, path_for};
+use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
+use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
 use crate::train::{Backend, BackendError, Outcome, train};
 use anyhow::{Context, bail};
@@ -111,6 +111,8 @@ impl Train {
         let replace = if self.options.force { Replace::Yes } else { Replace::No };
         let config = self.options.configure(&self.config)?;
         keep_inputs(&[&self.config], &self.out)?;
+        // Before anything is looked at that another training may be about to write.
+        let _lock = Lock::acquire(&lock_path_for(&self.out))?;
         may_write(&self.out, replace)?;
         may_write(&losses_path(&self.out), replace)?;
         let checkpoint = path_for(&self.out);

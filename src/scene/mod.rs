@@ -170,19 +170,38 @@ pub fn build_with_camera(scene: &SceneFile, options: &Options) -> Result<(Fragme
     scene.build(options)
 }
 
-/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image.
+/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep part is read.
 ///
 /// # Errors
 /// [`SceneError`] names the file, the place in it and what is expected there.
 pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
+    read_part(path, None)
+}
+
+/// As [`read`], with the name or number of a deep image's part.
+///
+/// # Errors
+/// As [`read`]; an archive has no parts.
+pub fn read_part(path: &Path, part: Option<&str>) -> Result<FragmentList, SceneError> {
     match path
         .extension()
         .and_then(|e| e.to_str())
         .map(str::to_ascii_lowercase)
         .as_deref()
     {
+        Some("npz") if part.is_some() => Err(SceneError::file_content(
+            path,
+            "name",
+            "an archive has no parts; only deep images (.exr) do",
+        )),
         Some("npz") => npz::read(path),
-        Some("exr") => exr::read(path, &exr::ReadOptions::default()),
+        Some("exr") => exr::read(
+            path,
+            &exr::ReadOptions {
+                part: part.map(str::to_owned),
+                ..exr::ReadOptions::default()
+            },
+        ),
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
     }
 }

@@ -93,7 +93,7 @@ impl BenchMethods {
             None
         };
 
-        let list = load(&self.fragments, &self.options)?;
+        let list = load(ui, &self.fragments, &self.options)?;
         let truth = Truth::new(&list, background);
         let setting = Setting {
             truth: &truth,
@@ -150,7 +150,7 @@ impl BenchMethods {
                     .map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })),
             );
         }
-        let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
+        let json = serde_json::to_string_pretty(&ui.report("bench", results))? + "\n";
         let mut written = String::new();
         if let Some(out) = &self.out {
             for (device, table) in &tables {
