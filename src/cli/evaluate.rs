@@ -2,15 +2,15 @@
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load};
-use super::ui::{Ui, report, table};
+use super::scene::{SceneOptions, ViewOptions, load, refuse_outside};
+use super::ui::{Ui, table};
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
 use crate::evaluate::{MethodResult, Truth};
 use crate::export::Format;
 use crate::features::MomentFrame;
-use crate::gpu::pipeline::Storage;
+use crate::gpu::pipeline::TargetPrecision;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
@@ -68,7 +68,7 @@ enum StorageName {
     Half,
 }
 
-impl From<StorageName> for Storage {
+impl From<StorageName> for TargetPrecision {
     fn from(name: StorageName) -> Self {
         match name {
             StorageName::Full => Self::Full,
@@ -110,7 +110,8 @@ impl Evaluate {
         let mut results = Vec::new();
         let mut refused = false;
         for (scene, name) in self.fragments.iter().zip(&names) {
-            let list = load(scene, &self.options)?;
+            let list = load(ui, scene, &self.options)?;
+            refuse_outside(&list, context.planes)?;
             let truth = Truth::new(&list, background);
             let mut remarks = String::new();
             let folder = self.out.join(name);
@@ -214,7 +215,7 @@ impl Evaluate {
                 result.insert("skip".to_owned(), json!(skip));
             }
         }
-        let report = report("evaluate", results);
+        let report = ui.report("evaluate", results);
         let json = serde_json::to_string_pretty(&report)? + "\n";
         write_atomically(&self.out.join(RESULTS), replace, |w| w.write_all(json.as_bytes()))?;
         if ui.json() {
@@ -356,7 +357,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
 }
 
 /// What the GPU drew, as a table under its name.
-fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[(MethodResult, Option<GpuResult>)]) -> String {
+fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Option<GpuResult>)]) -> String {
     if results.iter().all(|r| r.1.is_none()) {
         return String::new();
     }

@@ -17,7 +17,6 @@ mod scene;
 mod stress;
 mod train;
 mod ui;
-mod unfinished;
 
 use clap::{Args, Parser, Subcommand};
 use std::path::Path;
@@ -111,7 +110,8 @@ fn shown(path: &Path) -> String {
 
 /// Gives the libraries of window systems a folder to look for a display in. Without one they print an error, though nothing here opens a window.
 fn settle_environment() {
-    let usable = std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|d| Path::new(&d).is_absolute() && Path::new(&d).is_dir());
+    let usable =
+        std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|d| Path::new(&d).is_absolute() && Path::new(&d).is_dir());
     if cfg!(unix) && !usable {
         // SAFETY: this is the first thing that the process does; no other thread reads the environment yet.
         unsafe { std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir()) };
@@ -123,7 +123,11 @@ fn arguments() -> Result<Cli, ExitCode> {
     Cli::try_parse().map_err(|error| {
         let usage = error.use_stderr();
         if usage && std::env::args_os().any(|a| a == "--json") {
-            let command = std::env::args_os().nth(1).unwrap_or_default().to_string_lossy().into_owned();
+            let command = std::env::args_os()
+                .nth(1)
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
             Ui::new(false, true).print_error(&command, error.to_string().trim_end());
         }
         // Where this fails, there is nobody to tell.

@@ -1,7 +1,7 @@
 //! `nmt predict`
 
-use super::ui::Ui;
 use super::scene::{load_list, refuse_outside};
+use super::ui::Ui;
 use super::{Verdict, keep_inputs, shown};
 use crate::evaluate::transmittance_error;
 use crate::features::passes::{Class, Tally};

@@ -143,8 +143,16 @@ fn difference(before: &Value, now: &Value, place: &str) -> Option<String> {
             keys.sort_unstable();
             keys.dedup();
             keys.into_iter().find_map(|key| {
-                let place = if place.is_empty() { key.clone() } else { format!("{place}.{key}") };
-                difference(a.get(key).unwrap_or(&Value::Null), b.get(key).unwrap_or(&Value::Null), &place)
+                let place = if place.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{place}.{key}")
+                };
+                difference(
+                    a.get(key).unwrap_or(&Value::Null),
+                    b.get(key).unwrap_or(&Value::Null),
+                    &place,
+                )
             })
         }
         _ if before == now => None,

@@ -146,7 +146,10 @@ pub fn load_list(ui: &Ui, path: &Path, part: Option<&str>) -> anyhow::Result<Fra
 /// Refuses a list whose fragments lie outside the camera planes: some methods could not order them, and none should.
 pub fn refuse_outside(list: &FragmentList, planes: Option<CameraPlanes>) -> anyhow::Result<()> {
     let warnings = list.depth_warnings(planes);
-    match warnings.iter().find(|w| matches!(w, DepthWarning::OutsidePlanes { .. })) {
+    match warnings
+        .iter()
+        .find(|w| matches!(w, DepthWarning::OutsidePlanes { .. }))
+    {
         Some(outside) => bail!("{outside}"),
         None => Ok(()),
     }
@@ -154,7 +157,9 @@ pub fn refuse_outside(list: &FragmentList, planes: Option<CameraPlanes>) -> anyh
 
 /// The camera that was chosen, as a scene file would give it.
 fn placed(path: &Path, camera: &Camera) -> String {
-    let Camera { position, look_at, up, .. } = camera;
+    let Camera {
+        position, look_at, up, ..
+    } = camera;
     format!(
         "{}: no camera is given; it is seen by\n[camera]\nposition = {position:.4?}\nlook_at = {look_at:.4?}\nup = {up:?}\nvertical_fov = {}\n\
          width = {}\nheight = {}\nnear = {}\nfar = {}",
@@ -186,7 +191,11 @@ impl Scene {
         let start = Instant::now();
         let list = load(ui, &self.scene, &self.options)?;
         let seconds = start.elapsed().as_secs_f64();
-        for warning in list.depth_warnings(None).iter().filter(|w| matches!(w, DepthWarning::OutsidePlanes { .. })) {
+        for warning in list
+            .depth_warnings(None)
+            .iter()
+            .filter(|w| matches!(w, DepthWarning::OutsidePlanes { .. }))
+        {
             ui.depth_warning(&shown(Path::new(&self.scene)), warning);
         }
         if deep {

@@ -48,7 +48,13 @@ impl Ui {
     /// Says what the source of a list holds and the list does not.
     pub fn left_out(&self, list: &FragmentList) {
         let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
-        for left_out in list.left_out().iter().filter(|l| !notes.left_out.contains(l)).cloned().collect::<Vec<_>>() {
+        for left_out in list
+            .left_out()
+            .iter()
+            .filter(|l| !notes.left_out.contains(l))
+            .cloned()
+            .collect::<Vec<_>>()
+        {
             self.warn(&left_out.to_string());
             notes.left_out.push(left_out);
         }
@@ -62,7 +68,11 @@ impl Ui {
             object.insert("where".to_owned(), name.into());
             object.insert("message".to_owned(), warning.to_string().into());
         }
-        self.notes.lock().unwrap_or_else(PoisonError::into_inner).warnings.push(value);
+        self.notes
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .warnings
+            .push(value);
     }
 
     /// The object that `--json` prints.

@@ -78,7 +78,10 @@ struct Transient(PathBuf);
 
 impl Transient {
     fn new(path: &Path) -> Self {
-        TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned());
+        TRANSIENT
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(path.to_owned());
         Self(path.to_owned())
     }
 }
@@ -108,9 +111,13 @@ pub fn remove_stale_files(folder: &Path) -> Result<(), FileError> {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return Ok(());
     };
-    for entry in entries.flatten().filter(|e| e.file_name().to_string_lossy().starts_with(TEMPORARY)) {
+    for entry in entries
+        .flatten()
+        .filter(|e| e.file_name().to_string_lossy().starts_with(TEMPORARY))
+    {
         let path = entry.path();
-        std::fs::remove_file(&path).map_err(FileError::io(&path, "cannot remove a temporary file of an earlier run"))?;
+        std::fs::remove_file(&path)
+            .map_err(FileError::io(&path, "cannot remove a temporary file of an earlier run"))?;
     }
     Ok(())
 }
@@ -147,7 +154,11 @@ impl Lock {
                 Err(TryLockError::WouldBlock) => {
                     let mut holder = String::new();
                     drop(file.read_to_string(&mut holder));
-                    let holder = if holder.trim().is_empty() { "that has just begun" } else { holder.trim() };
+                    let holder = if holder.trim().is_empty() {
+                        "that has just begun"
+                    } else {
+                        holder.trim()
+                    };
                     return Err(FileError::Locked {
                         path: path.to_owned(),
                         holder: holder.to_owned(),
@@ -161,7 +172,9 @@ impl Lock {
                 // Its holder removed it meanwhile; the next one is another file.
                 continue;
             }
-            let written = file.set_len(0).and_then(|()| write!(file, "process {}", std::process::id()));
+            let written = file
+                .set_len(0)
+                .and_then(|()| write!(file, "process {}", std::process::id()));
             written.map_err(FileError::io(path, cannot))?;
             return Ok(Self {
                 file,
@@ -312,7 +325,10 @@ mod tests {
         let path = folder.path().join("new/a.lock");
         let lock = Lock::acquire(&path).unwrap();
         let refused = Lock::acquire(&path).unwrap_err().to_string();
-        assert!(refused.contains(&format!("process {}", std::process::id())), "{refused}");
+        assert!(
+            refused.contains(&format!("process {}", std::process::id())),
+            "{refused}"
+        );
         drop(lock);
         assert!(!path.exists());
         // A process that was killed leaves the file, and nothing holds it.

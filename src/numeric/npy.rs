@@ -92,7 +92,11 @@ fn kind(bytes: &[u8]) -> Option<String> {
     };
     let header = String::from_utf8_lossy(bytes.get(start..bytes.len().min(start + 4096))?).into_owned();
     let after = header.split_once("'descr'")?.1.split_once(['\'', '[', '\n'])?;
-    let name: String = after.1.chars().take_while(|c| c.is_ascii_alphanumeric() || "<>|=".contains(*c)).collect();
+    let name: String = after
+        .1
+        .chars()
+        .take_while(|c| c.is_ascii_alphanumeric() || "<>|=".contains(*c))
+        .collect();
     (!name.is_empty()).then(|| name.replace('=', "<"))
 }
 
@@ -113,7 +117,11 @@ fn name_of(kind: &str) -> String {
         "b1" => "bool",
         _ => return format!("of type {kind}"),
     };
-    if kind.starts_with('>') { format!("big-endian {name}") } else { name.to_owned() }
+    if kind.starts_with('>') {
+        format!("big-endian {name}")
+    } else {
+        name.to_owned()
+    }
 }
 
 /// What is wrong with an array's type, and how to write it in another.
@@ -129,7 +137,10 @@ fn other_type<T: Element>(array: &str, bytes: &[u8]) -> Option<String> {
         name => format!(".astype(np.{name})"),
     };
     Some(match bytes_of_color {
-        true => format!("it is {name}; divide it by {}, make it linear and write {convert}", if kind == "|u1" { 255 } else { 65535 }),
+        true => format!(
+            "it is {name}; divide it by {}, make it linear and write {convert}",
+            if kind == "|u1" { 255 } else { 65535 }
+        ),
         false => format!("it is {name}; write {convert}"),
     })
 }
@@ -320,7 +331,9 @@ pub fn write_npz(path: &Path, replace: Replace, arrays: &[(&str, Vec<u8>)]) -> R
                 .compression_method(zip::CompressionMethod::Stored)
                 .last_modified_time(zip::DateTime::default())
                 .large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2);
-            let written = archive.start_file(format!("{name}.npy"), options).map_err(std::io::Error::from);
+            let written = archive
+                .start_file(format!("{name}.npy"), options)
+                .map_err(std::io::Error::from);
             if let Err(error) = written.and_then(|()| archive.write_all(bytes)) {
                 // Dropped, an archive would try to finish itself and report that this fails too.
                 std::mem::forget(archive);
@@ -387,9 +400,18 @@ mod tests {
     #[test]
     fn other_types_are_named_with_their_remedy() {
         let doubles = encode(arr1(&[1.0f64]).view());
-        let big = doubles.iter().map(|&b| if b == b'<' { b'>' } else { b }).collect::<Vec<_>>();
-        assert_eq!(other_type::<f32>("alpha", &doubles).unwrap(), "it is float64; write .astype(np.float32)");
-        assert_eq!(other_type::<f32>("alpha", &big).unwrap(), "it is big-endian float64; write .astype('<f4')");
+        let big = doubles
+            .iter()
+            .map(|&b| if b == b'<' { b'>' } else { b })
+            .collect::<Vec<_>>();
+        assert_eq!(
+            other_type::<f32>("alpha", &doubles).unwrap(),
+            "it is float64; write .astype(np.float32)"
+        );
+        assert_eq!(
+            other_type::<f32>("alpha", &big).unwrap(),
+            "it is big-endian float64; write .astype('<f4')"
+        );
         assert_eq!(other_type::<f64>("alpha", &doubles), None);
         let bytes = encode(arr1(&[1u8]).view());
         assert!(other_type::<f32>("color", &bytes).unwrap().contains("divide it by 255"));

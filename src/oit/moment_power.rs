@@ -4,7 +4,7 @@ use super::Method;
 use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
-use crate::moments::storage::{Storage, through_nlqm, through_unorm16};
+use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
 use crate::numeric::quantise::round_f16;
 use crate::pixel::MomentDepth;
 
@@ -39,12 +39,12 @@ fn names(head: &str) -> Vec<String> {
 
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let storage = match arguments.argument {
-        None => Storage::F64,
-        Some("f32") => Storage::F32,
-        Some("unorm16") => Storage::Unorm16,
+        None => MomentStorage::F64,
+        Some("f32") => MomentStorage::F32,
+        Some("unorm16") => MomentStorage::Unorm16,
         // Its quantities are no sums: one fragment cannot be taken out of them.
         Some("nlqm") if arguments.own => return Err(arguments.wrong("expected f32 or unorm16 before +own")),
-        Some("nlqm") => Storage::Nlqm,
+        Some("nlqm") => MomentStorage::Nlqm,
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
     Ok(Box::new(PerPixel {
@@ -58,14 +58,14 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
 /// # Source
 /// MKKP18 Sec. 3 and 4.
 struct Power<const N: usize, const M: usize> {
-    storage: Storage,
+    storage: MomentStorage,
 }
 
 impl<const N: usize, const M: usize> Power<N, M> {
     fn bias(&self) -> Bias {
         match self.storage {
-            Storage::Unorm16 => Bias::sixteen_bits(2 * N),
-            Storage::F64 | Storage::F32 | Storage::Nlqm => Bias::single_precision(2 * N),
+            MomentStorage::Unorm16 => Bias::sixteen_bits(2 * N),
+            MomentStorage::F64 | MomentStorage::F32 | MomentStorage::Nlqm => Bias::single_precision(2 * N),
         }
     }
 }
@@ -91,10 +91,10 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     /// MKKP18 Table 1: 160 and 80 bits for four moments, 224 and 112 for six. What is kept in f64 here stands for single precision.
     fn moment_bits(&self) -> u32 {
         match self.storage {
-            Storage::F64 | Storage::F32 => 32 * M as u32,
-            Storage::Unorm16 => 16 * M as u32,
+            MomentStorage::F64 | MomentStorage::F32 => 32 * M as u32,
+            MomentStorage::Unorm16 => 16 * M as u32,
             // Sha18 Table 1: the single-precision target of pass 1 and the quantities beside it.
-            Storage::Nlqm => (32 + 16) * M as u32,
+            MomentStorage::Nlqm => (32 + 16) * M as u32,
         }
     }
 
@@ -102,15 +102,15 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
         let mut b = [0.0; M];
         for &sample in samples {
             match self.storage {
-                Storage::F64 | Storage::Nlqm => add(&mut b, sample),
-                Storage::F32 => {
+                MomentStorage::F64 | MomentStorage::Nlqm => add(&mut b, sample),
+                MomentStorage::F32 => {
                     let (z, mut term) = (sample.z.0 as f32, sample.absorbance as f32);
                     for b in &mut b {
                         *b = f64::from(*b as f32 + term);
                         term *= z;
                     }
                 }
-                Storage::Unorm16 => {
+                MomentStorage::Unorm16 => {
                     add(&mut b, sample);
                     if b[0] > 0.0 {
                         let normalised = through_unorm16(b.map(|x| x / b[0]));
@@ -120,7 +120,7 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
                 }
             }
         }
-        if self.storage == Storage::Nlqm {
+        if self.storage == MomentStorage::Nlqm {
             b = scaled(b, round_f16(b[0]));
         }
         b
@@ -145,7 +145,7 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     fn curve(&self, b: &[f64; M]) -> PowerCurve<f64, N> {
         let bias = self.bias();
         match self.storage {
-            Storage::Nlqm => PowerCurve::from_parts(b[0], through_nlqm::<N, M>(&bias.apply(b.map(|x| x / b[0])))),
+            MomentStorage::Nlqm => PowerCurve::from_parts(b[0], through_nlqm::<N, M>(&bias.apply(b.map(|x| x / b[0])))),
             _ => PowerCurve::new(b, &bias),
         }
     }

@@ -4,7 +4,7 @@ use super::Method;
 use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
-use crate::moments::storage::Storage;
+use crate::moments::storage::MomentStorage;
 use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
 use crate::numeric::complex::Complex;
 use crate::numeric::quantise::{round_f16, round_unorm16};
@@ -41,9 +41,9 @@ fn names(head: &str) -> Vec<String> {
 
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let storage = match arguments.argument {
-        None => Storage::F64,
-        Some("f32") => Storage::F32,
-        Some("unorm16") => Storage::Unorm16,
+        None => MomentStorage::F64,
+        Some("f32") => MomentStorage::F32,
+        Some("unorm16") => MomentStorage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
     Ok(Box::new(PerPixel {
@@ -57,7 +57,7 @@ fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, P
 /// # Source
 /// MKKP18 Sec. 5.
 struct Trigonometric<const M: usize> {
-    storage: Storage,
+    storage: MomentStorage,
 }
 
 impl<const M: usize> MomentBased for Trigonometric<M> {
@@ -70,12 +70,12 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
 
     /// MKKP18 Table 1: 224 and 112 bits for three moments, 288 and 144 for four.
     fn moment_bits(&self) -> u32 {
-        (if self.storage == Storage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
+        (if self.storage == MomentStorage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments {
         let mut b = TrigonometricMoments::ZERO;
-        if self.storage == Storage::F32 {
+        if self.storage == MomentStorage::F32 {
             let mut single = TrigonometricMoments::<f32, M>::ZERO;
             for sample in samples {
                 single.add(sample.z, sample.absorbance as f32);
@@ -87,7 +87,7 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
         }
         for sample in samples {
             b.add(sample.z, sample.absorbance);
-            if self.storage == Storage::Unorm16 && b.total > 0.0 {
+            if self.storage == MomentStorage::Unorm16 && b.total > 0.0 {
                 // MKKP18 Sec. 5.3: no transform but the shift to [0, 1].
                 let (before, total) = (b.total, round_f16(b.total));
                 let store = |v: f64| total * (2.0 * round_unorm16(0.5 * v / before + 0.5) - 1.0);
@@ -111,7 +111,7 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn curve(&self, b: &Self::Moments) -> Self::Curve {
-        TrigonometricCurve::new(b, moment_bias(M, self.storage == Storage::Unorm16))
+        TrigonometricCurve::new(b, moment_bias(M, self.storage == MomentStorage::Unorm16))
     }
 
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {

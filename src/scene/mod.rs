@@ -13,7 +13,7 @@ pub mod splat;
 mod texture;
 
 pub use camera::Camera;
-pub use file::{Look, MeshEntry, SceneFile, SplatEntry};
+pub use file::{MaterialOverride, MeshEntry, SceneFile, SplatEntry};
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;

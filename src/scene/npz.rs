@@ -84,7 +84,12 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
     let others: Vec<&str> = npz.names().filter(|n| !NAMES.contains(n)).collect();
     let what = format!("arrays {}", others.join(", "));
     let remedy = format!("a fragment list is {}", NAMES.join(", "));
-    Ok(list.with_left_out([LeftOut::new(what, path.display().to_string(), others.len() as u64, remedy)]))
+    Ok(list.with_left_out([LeftOut::new(
+        what,
+        path.display().to_string(),
+        others.len() as u64,
+        remedy,
+    )]))
 }
 
 /// Four whole numbers of a window.
@@ -94,7 +99,9 @@ fn window(npz: &Npz, name: &str) -> Result<Option<[i32; 4]>, NpyError> {
     };
     let found = format!("shape {:?}", array.shape());
     let values = vector(npz, name, array)?;
-    <[i32; 4]>::try_from(values).map(Some).map_err(|_| npz.wrong(name, found, "x_min, y_min, x_max, y_max"))
+    <[i32; 4]>::try_from(values)
+        .map(Some)
+        .map_err(|_| npz.wrong(name, found, "x_min, y_min, x_max, y_max"))
 }
 
 /// Writes a fragment list.
@@ -147,9 +154,17 @@ fn offsets(npz: &Npz) -> Result<Vec<u64>, NpyError> {
             .collect()
     };
     match npz.kind(NAME).as_deref() {
-        Some("<u4" | "|u4") => Ok(vector(npz, NAME, npz.required::<u32>(NAME)?)?.into_iter().map(u64::from).collect()),
+        Some("<u4" | "|u4") => Ok(vector(npz, NAME, npz.required::<u32>(NAME)?)?
+            .into_iter()
+            .map(u64::from)
+            .collect()),
         Some("<i8") => signed(vector(npz, NAME, npz.required::<i64>(NAME)?)?),
-        Some("<i4") => signed(vector(npz, NAME, npz.required::<i32>(NAME)?)?.into_iter().map(i64::from).collect()),
+        Some("<i4") => signed(
+            vector(npz, NAME, npz.required::<i32>(NAME)?)?
+                .into_iter()
+                .map(i64::from)
+                .collect(),
+        ),
         _ => vector(npz, NAME, npz.required::<u64>(NAME)?),
     }
 }

@@ -2,8 +2,14 @@
 //! independent reader.
 
 mod cli;
+mod content_deep;
+mod content_lists;
+mod content_meshes;
+mod content_splats;
+mod content_work;
 mod docs;
 mod fuzz;
 mod layers;
 mod python;
 mod report;
+mod shaders;

@@ -71,9 +71,15 @@ pub(super) fn used(
         }
     }
     let find = |layer: &str, role: Role| roles.iter().position(|r| *r == (layer, Some(role)));
-    let three = |layer: &str, of: fn(usize) -> Role| Some([find(layer, of(0))?, find(layer, of(1))?, find(layer, of(2))?]);
+    let three =
+        |layer: &str, of: fn(usize) -> Role| Some([find(layer, of(0))?, find(layer, of(1))?, find(layer, of(2))?]);
     let names = || channels.iter().map(|c| c.0.as_str()).collect::<Vec<_>>().join(", ");
-    let missing = |what: &str| bytes.wrong("channels", format!("there is no channel {what}; the file has {}", names()));
+    let missing = |what: &str| {
+        bytes.wrong(
+            "channels",
+            format!("there is no channel {what}; the file has {}", names()),
+        )
+    };
     let alpha_of = |layer: &str| {
         let one = find(layer, Role::Alpha).map(Alpha::One);
         one.or_else(|| three(layer, Role::AlphaOf).map(Alpha::PerColor))
@@ -82,7 +88,9 @@ pub(super) fn used(
     let (layer, alpha) = with_alpha.ok_or_else(|| missing("A (alpha)"))?;
     // Of the layer itself, of no layer, of any.
     let order = || [layer, ""].into_iter().chain(layers.iter().copied());
-    let z = order().find_map(|l| find(l, Role::Z)).ok_or_else(|| missing("Z (depth)"))?;
+    let z = order()
+        .find_map(|l| find(l, Role::Z))
+        .ok_or_else(|| missing("Z (depth)"))?;
     let color = order().find_map(|l| three(l, Role::Color));
     if color.is_none() && roles.iter().any(|r| matches!(r.1, Some(Role::Color(_)))) {
         let reason = format!("colour needs R, G and B, or none of them; the file has {}", names());
@@ -101,11 +109,22 @@ pub(super) fn used(
         Alpha::PerColor(a) => {
             used.extend(a);
             let what = "opacity for each colour (AR, AG, AB)";
-            note(left_out, LeftOut::new(what, place, 1, "opacity is their mean; what each sample adds to the image is kept"));
+            note(
+                left_out,
+                LeftOut::new(
+                    what,
+                    place,
+                    1,
+                    "opacity is their mean; what each sample adds to the image is kept",
+                ),
+            );
         }
     }
     used.extend(color.into_iter().flatten().chain(z_back));
-    let others: Vec<&str> = (0..channels.len()).filter(|i| !used.contains(i)).map(|i| channels[i].0.as_str()).collect();
+    let others: Vec<&str> = (0..channels.len())
+        .filter(|i| !used.contains(i))
+        .map(|i| channels[i].0.as_str())
+        .collect();
     if !others.is_empty() {
         let what = format!("channels {}", others.join(", "));
         let remedy = "read are Z, ZBack, A and R, G, B, of one layer where there are several";
@@ -134,12 +153,21 @@ mod tests {
     #[test]
     fn channels_are_found_under_any_usual_name() {
         let (plain, rest) = find(&["A", "B", "G", "R", "Z"]).unwrap();
-        assert_eq!((plain.z, plain.alpha, plain.color, rest.len()), (4, Alpha::One(0), Some([3, 2, 1]), 0));
+        assert_eq!(
+            (plain.z, plain.alpha, plain.color, rest.len()),
+            (4, Alpha::One(0), Some([3, 2, 1]), 0)
+        );
         let (layered, _) = find(&["Z", "beauty.B", "beauty.G", "beauty.R", "beauty.alpha"]).unwrap();
-        assert_eq!((layered.z, layered.alpha, layered.color), (0, Alpha::One(4), Some([3, 2, 1])));
+        assert_eq!(
+            (layered.z, layered.alpha, layered.color),
+            (0, Alpha::One(4), Some([3, 2, 1]))
+        );
         let (glass, rest) = find(&["AB", "AG", "AR", "B", "G", "R", "Z", "id"]).unwrap();
         assert_eq!(glass.alpha, Alpha::PerColor([2, 1, 0]));
-        assert!(rest[0].what.contains("AR, AG, AB") && rest[1].what == "channels id", "{rest:?}");
+        assert!(
+            rest[0].what.contains("AR, AG, AB") && rest[1].what == "channels id",
+            "{rest:?}"
+        );
         let (two, rest) = find(&["A", "Z", "left.A", "left.Z"]).unwrap();
         assert_eq!((two.z, two.alpha), (1, Alpha::One(0)));
         assert_eq!((rest[0].what.as_str(), rest[0].count), ("channels left.A, left.Z", 2));
@@ -148,7 +176,10 @@ mod tests {
     #[test]
     fn what_is_missing_is_named_beside_what_is_there() {
         for (names, part) in [
-            (&["R", "G", "B", "Z"][..], "no channel A (alpha); the file has R, G, B, Z"),
+            (
+                &["R", "G", "B", "Z"][..],
+                "no channel A (alpha); the file has R, G, B, Z",
+            ),
             (&["A"], "no channel Z (depth)"),
             (&["A", "Z", "R"], "colour needs R, G and B"),
         ] {

@@ -35,7 +35,10 @@ impl FileHeader {
         }
         let version = bytes.u32("the version")?;
         if version & 0xff != 2 {
-            let reason = format!("version {} of the format; 2 is the one that is supported", version & 0xff);
+            let reason = format!(
+                "version {} of the format; 2 is the one that is supported",
+                version & 0xff
+            );
             return Err(bytes.wrong("byte 4", reason));
         }
         let mut parts = Vec::new();
@@ -97,7 +100,12 @@ fn header(bytes: &mut Bytes<'_>) -> Result<Option<Header>, SceneError> {
         };
         let what = format!("attribute '{name}'");
         let mut window = || -> Result<Option<[i32; 4]>, SceneError> {
-            Ok(Some([value.i32(&what)?, value.i32(&what)?, value.i32(&what)?, value.i32(&what)?]))
+            Ok(Some([
+                value.i32(&what)?,
+                value.i32(&what)?,
+                value.i32(&what)?,
+                value.i32(&what)?,
+            ]))
         };
         match (name.as_str(), kind.as_str()) {
             ("name", "string") => header.name = Some(String::from_utf8_lossy(data).into_owned()),

@@ -78,8 +78,13 @@ fn decode(path: &Path, data: &[u8], options: &ReadOptions) -> Result<FragmentLis
     let part = select_part(&bytes, &file, options.part.as_deref(), &mut left_out)?;
     let layout = Layout::of_part(&bytes, &file, part, options, &mut left_out)?;
     let chunks = chunks::locate(&mut bytes, &file, part, &layout)?;
-    let decoded: Vec<Decoded> = chunks.par_iter().map(|chunk| layout.block(chunk)).collect::<Result<_, _>>()?;
-    let tally = decoded.iter().fold(Tally::default(), |sum, block| sum.plus(&block.tally));
+    let decoded: Vec<Decoded> = chunks
+        .par_iter()
+        .map(|chunk| layout.block(chunk))
+        .collect::<Result<_, _>>()?;
+    let tally = decoded
+        .iter()
+        .fold(Tally::default(), |sum, block| sum.plus(&block.tally));
     let place = format!("{}, {}", path.display(), file.name_of(part));
     tally.name_what_is_left_out(&place, options.volume_slices, &mut left_out);
     let header = &file.parts[part];
@@ -101,7 +106,10 @@ fn planes(header: &Header, place: &str, left_out: &mut Vec<LeftOut>) -> Option<C
     let planes = CameraPlanes::new(near, far);
     if planes.is_err() {
         let what = format!("the camera planes near = {near}, far = {far}");
-        note(left_out, LeftOut::new(what, place, 1, "0 < near < far is expected; pass --near and --far"));
+        note(
+            left_out,
+            LeftOut::new(what, place, 1, "0 < near < far is expected; pass --near and --far"),
+        );
     }
     planes.ok()
 }
@@ -113,38 +121,52 @@ fn select_part(
     wanted: Option<&str>,
     left_out: &mut Vec<LeftOut>,
 ) -> Result<usize, SceneError> {
-    let all = || (0..file.parts.len()).map(|i| file.name_of(i)).collect::<Vec<_>>().join(", ");
+    let all = || {
+        (0..file.parts.len())
+            .map(|i| file.name_of(i))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let part = match wanted {
         Some(wanted) => {
             let named = file.parts.iter().position(|p| p.name.as_deref() == Some(wanted));
             let numbered = || wanted.parse::<usize>().ok().filter(|&n| n < file.parts.len());
-            named.or_else(numbered).ok_or_else(|| {
-                bytes.wrong("header", format!("there is no part '{wanted}'; the file has {}", all()))
-            })?
+            named
+                .or_else(numbered)
+                .ok_or_else(|| bytes.wrong("header", format!("there is no part '{wanted}'; the file has {}", all())))?
         }
         None => (0..file.parts.len()).find(|&i| file.is_deep(i)).ok_or_else(|| {
-            bytes.wrong("header", "this image is flat; a deep image (type deepscanline or deeptile) is needed")
+            bytes.wrong(
+                "header",
+                "this image is flat; a deep image (type deepscanline or deeptile) is needed",
+            )
         })?,
     };
     if !file.is_deep(part) {
-        let reason = format!("{} is flat; a deep part is needed, and the file has {}", file.name_of(part), all());
+        let reason = format!(
+            "{} is flat; a deep part is needed, and the file has {}",
+            file.name_of(part),
+            all()
+        );
         return Err(bytes.wrong("header", reason));
     }
     if wanted.is_none() && file.parts.len() > 1 {
-        let others: Vec<String> = (0..file.parts.len()).filter(|&i| i != part).map(|i| file.name_of(i)).collect();
+        let others: Vec<String> = (0..file.parts.len())
+            .filter(|&i| i != part)
+            .map(|i| file.name_of(i))
+            .collect();
         let count = others.len() as u64;
         let remedy = format!("{} is read; --part NAME or NUMBER reads another", file.name_of(part));
-        note(left_out, LeftOut::new(others.join(", "), bytes.path.display().to_string(), count, remedy));
+        note(
+            left_out,
+            LeftOut::new(others.join(", "), bytes.path.display().to_string(), count, remedy),
+        );
     }
     Ok(part)
 }
 
 /// Puts the blocks' fragments in the order of the image's pixels.
-fn assemble(
-    chunks: &[Chunk<'_>],
-    decoded: Vec<Decoded>,
-    layout: &Layout<'_>,
-) -> Result<FragmentList, FragmentError> {
+fn assemble(chunks: &[Chunk<'_>], decoded: Vec<Decoded>, layout: &Layout<'_>) -> Result<FragmentList, FragmentError> {
     let (width, height, colored) = (layout.width, layout.height, layout.used.color.is_some());
     let mut offsets = vec![0u64; width * height + 1];
     for (chunk, block) in chunks.iter().zip(&decoded) {
@@ -177,7 +199,8 @@ fn assemble(
             from += n;
         }
     }
-    let list = FragmentList::new(offsets, view_z, alpha, colored.then_some(color))?.with_size(width as u32, height as u32)?;
+    let list =
+        FragmentList::new(offsets, view_z, alpha, colored.then_some(color))?.with_size(width as u32, height as u32)?;
     let usual = [0, 0, width as i32 - 1, height as i32 - 1];
     match layout.windows {
         Windows { data, display } if data == usual && display == usual => Ok(list),
@@ -240,7 +263,9 @@ mod tests {
         let back = decoded(&bytes_of(&list)).unwrap();
         assert_eq!((back.windows(), back.view_z()), (list.windows(), &[1.0, 2.0, 3.0][..]));
         assert_eq!(back.color().unwrap(), [[0.5, 4.0, 0.0], [1.0; 3], [9.0; 3]]);
-        let [empty] = back.left_out() else { panic!("{:?}", back.left_out()) };
+        let [empty] = back.left_out() else {
+            panic!("{:?}", back.left_out())
+        };
         assert!(empty.count == 1 && empty.what.contains("alpha 0"), "{empty}");
         assert_eq!(back.depth_range(), Some((1.0, 3.0)));
     }

@@ -107,7 +107,12 @@ impl<'a> Layout<'a> {
         left_out: &mut Vec<LeftOut>,
     ) -> Result<Self, SceneError> {
         let header = &file.parts[part];
-        let missing = |what: &str| bytes.wrong(&format!("header of part {part}"), format!("there is no attribute '{what}'"));
+        let missing = |what: &str| {
+            bytes.wrong(
+                &format!("header of part {part}"),
+                format!("there is no attribute '{what}'"),
+            )
+        };
         let data = header.data_window.ok_or_else(|| missing("dataWindow"))?;
         let (width, height) = (
             i64::from(data[2]) - i64::from(data[0]) + 1,
@@ -118,7 +123,10 @@ impl<'a> Layout<'a> {
             return Err(bytes.wrong("dataWindow", reason));
         }
         let (width, height) = (width as usize, height as usize);
-        let display = header.display_window.filter(|w| Windows::size_of(*w).is_some()).unwrap_or(data);
+        let display = header
+            .display_window
+            .filter(|w| Windows::size_of(*w).is_some())
+            .unwrap_or(data);
         let method = header.compression.ok_or_else(|| missing("compression"))?;
         let (packing, lines) = Packing::of_method(method).map_err(|reason| bytes.wrong("compression", reason))?;
         let channels = header.channels.as_ref().ok_or_else(|| missing("channels"))?;
@@ -131,7 +139,15 @@ impl<'a> Layout<'a> {
                 return Err(bytes.wrong("tiles", reason));
             }
             if header.levels > 0 {
-                note(left_out, LeftOut::new("the smaller levels of tiles", &place, 1, "the image of full size is read"));
+                note(
+                    left_out,
+                    LeftOut::new(
+                        "the smaller levels of tiles",
+                        &place,
+                        1,
+                        "the image of full size is read",
+                    ),
+                );
             }
             [w as usize, h as usize]
         } else {
@@ -213,7 +229,8 @@ impl<'a> Layout<'a> {
         let mut out = Decoded::default();
         out.view_z.reserve(total as usize);
         out.alpha.reserve(total as usize);
-        out.color.reserve(if self.used.color.is_some() { total as usize } else { 0 });
+        out.color
+            .reserve(if self.used.color.is_some() { total as usize } else { 0 });
         let mut line_at = 0;
         for (row, (counts, &samples)) in counts.chunks_exact(chunk.width).zip(&rows).enumerate() {
             // Within a row, each channel stands alone.
@@ -222,7 +239,8 @@ impl<'a> Layout<'a> {
                 starts.push(line_at);
                 line_at += samples as usize * size;
             }
-            let value = |channel: usize, i: usize| self.kinds[channel].value(&data[starts[channel] + i * sizes[channel]..]);
+            let value =
+                |channel: usize, i: usize| self.kinds[channel].value(&data[starts[channel] + i * sizes[channel]..]);
             let mut i = 0;
             for (column, &count) in counts.iter().enumerate() {
                 let before = out.view_z.len();
@@ -244,7 +262,11 @@ impl<'a> Layout<'a> {
             Alpha::One(place) => value(place, i),
             Alpha::PerColor(places) => (places.iter().map(|&p| f64::from(value(p, i))).sum::<f64>() / 3.0) as f32,
         };
-        if alpha.is_nan() { Err("A is not a number".to_owned()) } else { Ok(alpha) }
+        if alpha.is_nan() {
+            Err("A is not a number".to_owned())
+        } else {
+            Ok(alpha)
+        }
     }
 
     /// Appends the fragments of one sample: none, one, or the slices of a volume.

@@ -63,7 +63,9 @@ impl Packing {
         let most = (packed.len() as u64).saturating_mul(self.max_expansion());
         if self == Self::None || packed.len() as u64 > size || size > most {
             let n = packed.len();
-            return Err(format!("{n} bytes cannot hold the {size} that are declared; the file is damaged"));
+            return Err(format!(
+                "{n} bytes cannot hold the {size} that are declared; the file is damaged"
+            ));
         }
         let size = size as usize;
         let damaged = || "its compressed data is damaged".to_owned();
@@ -80,7 +82,11 @@ impl Packing {
             }
             Self::None | Self::Rle => {
                 let mut out = vec![0u8; size];
-                if unpack_runs(packed, &mut out) { Ok(undifferenced(out)) } else { Err(damaged()) }
+                if unpack_runs(packed, &mut out) {
+                    Ok(undifferenced(out))
+                } else {
+                    Err(damaged())
+                }
             }
         }
     }
@@ -92,7 +98,9 @@ fn undifferenced(mut out: Vec<u8>) -> Vec<u8> {
         out[i] = out[i].wrapping_add(out[i - 1]).wrapping_sub(128);
     }
     let (even, odd) = out.split_at(out.len().div_ceil(2));
-    (0..out.len()).map(|i| if i % 2 == 0 { even[i / 2] } else { odd[i / 2] }).collect()
+    (0..out.len())
+        .map(|i| if i % 2 == 0 { even[i / 2] } else { odd[i / 2] })
+        .collect()
 }
 
 /// ZSTD as OpenEXR writes it: 24 bytes ahead of the frame ("zstd-exr", version, flags, size), and in the frame the 16-bit channels of all rows and then
@@ -106,13 +114,20 @@ fn zstd(packed: &[u8], size: usize, content: Content<'_>) -> Result<Vec<u8>, Str
     }
     if word(8) != 1 || word(12) != 0 {
         let found = format!("version {} with flags {}", word(8), word(12));
-        return Err(format!("{found} of ZSTD in OpenEXR is not supported: save the file with ZIPS"));
+        return Err(format!(
+            "{found} of ZSTD in OpenEXR is not supported: save the file with ZIPS"
+        ));
     }
     let segments: Vec<(usize, usize)> = match content {
         Content::Counts => vec![(size, 4)],
         Content::Samples { rows, channels } => {
             let samples: u64 = rows.iter().sum();
-            let of = |bytes: usize| (samples as usize * channels.iter().filter(|b| **b == bytes).count() * bytes, bytes);
+            let of = |bytes: usize| {
+                (
+                    samples as usize * channels.iter().filter(|b| **b == bytes).count() * bytes,
+                    bytes,
+                )
+            };
             [of(2), of(4)].into_iter().filter(|s| s.0 > 0).collect()
         }
     };
@@ -122,9 +137,13 @@ fn zstd(packed: &[u8], size: usize, content: Content<'_>) -> Result<Vec<u8>, Str
     let inner_size = size + 8 * segments.len();
     let window = (inner_size as u64).max(1 << 20);
     let mut frame = frame;
-    let decoder = StreamingDecoder::new_with_max_window_size(&mut frame, window).map_err(|e| damaged(&e.to_string()))?;
+    let decoder =
+        StreamingDecoder::new_with_max_window_size(&mut frame, window).map_err(|e| damaged(&e.to_string()))?;
     let mut inner = Vec::new();
-    decoder.take(inner_size as u64 + 1).read_to_end(&mut inner).map_err(|e| damaged(&e.to_string()))?;
+    decoder
+        .take(inner_size as u64 + 1)
+        .read_to_end(&mut inner)
+        .map_err(|e| damaged(&e.to_string()))?;
     if inner.len() != inner_size {
         return Err(damaged("its length is not the one declared"));
     }
@@ -143,8 +162,11 @@ fn zstd(packed: &[u8], size: usize, content: Content<'_>) -> Result<Vec<u8>, Str
     let Content::Samples { rows, channels } = content else {
         return Ok(sorted.pop().unwrap_or_default());
     };
-    let mut cursors: Vec<(usize, std::slice::Iter<'_, u8>)> =
-        segments.iter().map(|s| s.1).zip(sorted.iter().map(|s| s.iter())).collect();
+    let mut cursors: Vec<(usize, std::slice::Iter<'_, u8>)> = segments
+        .iter()
+        .map(|s| s.1)
+        .zip(sorted.iter().map(|s| s.iter()))
+        .collect();
     let mut out = Vec::with_capacity(size);
     for &samples in rows {
         for &bytes in channels {

@@ -78,7 +78,10 @@ pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), S
         attribute("far", "float", &planes.far().to_le_bytes());
     }
     out.push(0);
-    let rows: Vec<Vec<u8>> = (0..height).into_par_iter().map(|y| scanline(list, width, y, data[1])).collect();
+    let rows: Vec<Vec<u8>> = (0..height)
+        .into_par_iter()
+        .map(|y| scanline(list, width, y, data[1]))
+        .collect();
     let mut at = out.len() as u64 + 8 * height as u64;
     for row in &rows {
         out.extend(at.to_le_bytes());
