@@ -4,6 +4,7 @@ use super::scene::{SceneOptions, ViewOptions, load, refuse_outside};
 use super::ui::{Ui, table};
 use super::{Verdict, interrupt, keep_inputs};
 use crate::features::MomentDepthKind;
+use crate::model::mlp::name_for;
 use crate::model::{Mlp, file};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::oit::neural::Skip;
@@ -170,7 +171,7 @@ impl Profile {
             other => other.with_context(|| model.display().to_string())?,
         };
         let out = self.out.as_ref().expect("clap demands it");
-        file::save(out, replace, &made.mlp)?;
+        file::save(out, replace, &made.mlp.clone().renamed(name_for(out))?)?;
         let chosen = &made.attempts[made.chosen];
         if !chosen.kept {
             ui.warn("warning: no size keeps the error on the whole scene and on what was held out; the network written is the first one, retrained at its own size");
@@ -202,7 +203,7 @@ impl Profile {
             );
         }
         let out = self.out.as_ref().expect("clap demands it");
-        file::save(out, replace, &left)?;
+        file::save(out, replace, &left.clone().renamed(name_for(out))?)?;
         if ui.json() {
             ui.print_json(
                 "profile",

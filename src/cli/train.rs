@@ -205,8 +205,8 @@ impl Trained {
             "{}: best validation loss {:.3e} in epoch {} of {}, {:.1} s, {:.2} M samples/s{}\n",
             self.mlp.shape(),
             p.validation_loss.unwrap_or(f64::NAN),
-            p.best_epoch.unwrap_or(0),
-            p.epochs.unwrap_or(0),
+            p.best_epoch_text().unwrap_or_default(),
+            p.epochs_text().unwrap_or_default(),
             self.seconds,
             self.samples_per_second / 1e6,
             self.adapter

@@ -306,6 +306,11 @@ fn default_mode() -> u32 {
     })
 }
 
+/// Text without the byte order mark that some editors put before UTF-8.
+pub fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
+}
+
 /// Reads a whole file.
 ///
 /// # Errors

@@ -5,7 +5,7 @@ use super::mesh::{self, Affine, IDENTITY, Overrides, Part, apply, compose};
 use super::raster::{Geometry, TexturedTriangle, Triangle, Vertex, rasterise};
 use super::splat::{Splat, file as splat_file};
 use super::{BUILT_IN, Options, SceneError, procedural};
-use crate::numeric::file::read;
+use crate::numeric::file::{read, without_mark};
 use crate::pixel::{FragmentList, LeftOut};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -94,8 +94,7 @@ impl SceneFile {
     /// [`SceneError`] names the file, the line or the field, and what is expected there.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let bytes = read(path)?;
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-        let text = std::str::from_utf8(bytes).map_err(|e| {
+        let text = std::str::from_utf8(without_mark(&bytes)).map_err(|e| {
             let reason = "this byte is not UTF-8, which TOML is written in; save the file as UTF-8";
             SceneError::file_content(path, &format!("byte {}", e.valid_up_to()), reason)
         })?;
