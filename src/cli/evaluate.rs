@@ -2,12 +2,12 @@
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load, refuse_outside};
+use super::scene::{SceneOptions, ViewOptions, load, moving_scene, refuse_outside};
 use super::ui::{Ui, table};
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
-use crate::evaluate::{MethodResult, Truth};
+use crate::evaluate::{MethodResult, OverTime, Truth, over_time};
 use crate::export::Format;
 use crate::features::MomentFrame;
 use crate::gpu::pipeline::TargetPrecision;
@@ -15,8 +15,9 @@ use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::file;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
-use crate::oit::{Method, all_names, parse};
+use crate::oit::{Context, Method, all_names, parse};
 use crate::pixel::FragmentList;
+use crate::scene::CameraPath;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -37,7 +38,8 @@ pub struct Evaluate {
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
-    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass has found.
+    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass
+    /// has found.
     #[arg(long, requires = "model")]
     prepass: bool,
     /// Folder for images, contact sheets and results.json.
@@ -47,6 +49,13 @@ pub struct Evaluate {
     options: SceneOptions,
     #[command(flatten)]
     view: ViewOptions,
+    /// Turn the camera about the scene for so many frames, and compare how images change from frame to frame; for
+    /// scenes that are rendered, not for lists.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    frames: Option<u32>,
+    /// Angle of the camera between two frames [degrees].
+    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = turn, allow_negative_numbers = true)]
+    degrees_per_frame: f64,
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]
     gpu: bool,
@@ -75,6 +84,14 @@ impl From<StorageName> for TargetPrecision {
             StorageName::HalfColor => Self::HalfColor,
             StorageName::Half => Self::Half,
         }
+    }
+}
+
+/// An angle that turns a camera.
+fn turn(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(degrees) if degrees != 0.0 && degrees.abs() <= 180.0 => Ok(degrees),
+        _ => Err("expected an angle from -180 to 180 degrees, not 0".to_owned()),
     }
 }
 
@@ -107,6 +124,11 @@ impl Evaluate {
             .map(|asked| asked.method.name())
             .collect();
         let names = scene_names(&self.fragments);
+        if self.frames.is_some() {
+            for scene in &self.fragments {
+                moving_scene(scene)?;
+            }
+        }
         let mut results = Vec::new();
         let mut refused = false;
         for (scene, name) in self.fragments.iter().zip(&names) {
@@ -128,6 +150,7 @@ impl Evaluate {
             };
             let progress = ui.progress("evaluate", methods.len() as u64);
             let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
+            let mut applied: Vec<&dyn Method> = Vec::new();
             let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
             for (
                 index,
@@ -187,16 +210,24 @@ impl Evaluate {
                     sheet.add(&judged)?;
                 }
                 found.push((judged.result, drawn));
+                applied.push(&**method);
             }
             progress.finish();
+            if let Some(path) = self.path() {
+                let changes = changes(scene, &self.options, path, &applied, (context, background), ui)?;
+                for ((result, _), change) in found.iter_mut().zip(changes) {
+                    result.over_time = change;
+                }
+            }
             found.sort_by(|a, b| by_error(&a.0, &b.0));
             if let Some(sheet) = sheet.filter(|_| !found.is_empty()) {
                 sheet.write(&folder.join("sheet.png"), replace)?;
             }
             let heading = format!(
-                "{name}: {} fragments, at most {} in a pixel\n",
+                "{name}: {} fragments, at most {} in a pixel{}\n",
                 list.len(),
-                list.depth_complexity()
+                list.depth_complexity(),
+                moving(self.path(), &found)
             );
             if !ui.json() {
                 let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, self.gpu_storage.into(), &found));
@@ -227,6 +258,14 @@ impl Evaluate {
             bail!("a method that was asked for by name could not be applied; see above");
         }
         Ok(Verdict::Fine)
+    }
+
+    /// The way of the camera, where it moves.
+    fn path(&self) -> Option<CameraPath> {
+        self.frames.map(|frames| CameraPath {
+            frames,
+            degrees_per_frame: self.degrees_per_frame,
+        })
     }
 
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
@@ -278,6 +317,41 @@ impl Evaluate {
             }
         }
         Ok(methods)
+    }
+}
+
+/// Changes of methods from frame to frame, as the camera moves about a scene.
+fn changes(
+    name: &str,
+    options: &SceneOptions,
+    path: CameraPath,
+    methods: &[&dyn Method],
+    (context, background): (Context, [f64; 3]),
+    ui: &Ui,
+) -> anyhow::Result<Vec<Option<OverTime>>> {
+    let scene = moving_scene(name)?;
+    let options = options.for_scene();
+    let progress = ui.progress("frames", path.frames.into());
+    let frame = |i: u32| {
+        progress.set(i.into(), name);
+        Ok::<_, anyhow::Error>(path.build(&scene, &options, i)?)
+    };
+    let changes = over_time::measure(path.frames, frame, methods, context, background)?;
+    progress.finish();
+    Ok(changes)
+}
+
+/// What the heading of a table says of frames.
+fn moving(path: Option<CameraPath>, found: &[(MethodResult, Option<GpuResult>)]) -> String {
+    let truth = found.iter().find_map(|(r, _)| r.over_time?.truth_change_mse);
+    match (path, truth) {
+        (Some(path), Some(truth)) => format!(
+            "; {} frames, {} degrees a frame, the truth itself changes by {:.3}e-6 (mean square)",
+            path.frames,
+            path.degrees_per_frame,
+            truth * 1e6
+        ),
+        _ => String::new(),
     }
 }
 
@@ -336,8 +410,12 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
         "seconds",
     ];
     let mut lines = vec![head.map(str::to_owned).to_vec()];
+    let moving = results.iter().any(|(r, _)| r.over_time.is_some());
+    if moving {
+        lines[0].extend(["frame change x1e-6", "worst change"].map(str::to_owned));
+    }
     for (r, _) in results {
-        lines.push(vec![
+        let mut line = vec![
             r.method.clone(),
             number(r.image_mse, &|x| format!("{:.4}", x * 1e4)),
             number(r.image_psnr_db, &|x| format!("{x:.1}")),
@@ -351,7 +429,17 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
                 r.bits_per_pixel.to_string()
             },
             format!("{:.3}", r.seconds),
-        ]);
+        ];
+        if moving {
+            let change = r.over_time;
+            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| {
+                format!("{:.4}", x * 1e6)
+            }));
+            line.push(number(change.and_then(|c| c.frame_change_worst), &|x| {
+                format!("{x:.4}")
+            }));
+        }
+        lines.push(line);
     }
     table(&lines)
 }

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Scene {
-    /// glass-stacks, smoke, hair, foliage, spheres, teapots, splats; or a scene file (.toml), a mesh (.obj, .gltf, .glb), Gaussian splats (.splat,
+    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots, splats; or a scene file (.toml), a mesh (.obj, .gltf, .glb), Gaussian splats (.splat,
     /// .ply, .spz), a fragment list (.npz) or a deep image (.exr).
     scene: OsString,
     /// Fragment list to write: .npz, or .exr for a deep image.
@@ -91,15 +91,41 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+impl SceneOptions {
+    /// What they change about a scene that is rendered.
+    pub fn for_scene(&self) -> Options {
+        Options {
+            size: self.size,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Whether a name is that of a file which holds fragments, and no scene.
+fn is_list(name: &OsStr) -> bool {
+    let list = |e: &OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
+    Path::new(name).extension().is_some_and(list) && !is_built_in(name)
+}
+
+fn is_built_in(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| BUILT_IN.contains(&name))
+}
+
+/// A scene whose camera can move.
+pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
+    if is_list(OsStr::new(name)) {
+        bail!(
+            "{name}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene"
+        );
+    }
+    Ok(scene::open(name)?)
+}
+
 /// The fragments of a scene by its name, or of a file; what is left out or makes no sense is said.
 pub fn load(ui: &Ui, name: &(impl AsRef<OsStr> + ?Sized), options: &SceneOptions) -> anyhow::Result<FragmentList> {
     let name = name.as_ref();
     let path = Path::new(name);
-    let is_list = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
-    let built_in = name.to_str().is_some_and(|name| BUILT_IN.contains(&name));
-    if is_list && !built_in {
+    if is_list(name) {
         if options.size.is_some() || options.seed.is_some() {
             bail!(
                 "{}: --size and --seed are for scenes that are rendered, not for fragment lists",
@@ -118,12 +144,8 @@ pub fn load(ui: &Ui, name: &(impl AsRef<OsStr> + ?Sized), options: &SceneOptions
             None => SceneFile::read(path)?,
         },
     };
-    let options = Options {
-        size: options.size,
-        seed: options.seed,
-    };
-    let (list, camera) = scene::build_with_camera(&scene, &options)?;
-    if scene.camera.is_none() && !built_in {
+    let (list, camera) = scene::build_with_camera(&scene, &options.for_scene())?;
+    if scene.camera.is_none() && !is_built_in(name) {
         ui.warn(&placed(path, &camera));
     }
     ui.left_out(&list);

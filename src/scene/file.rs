@@ -261,6 +261,26 @@ impl SceneFile {
         Ok(())
     }
 
+    /// The camera: the file's, a built-in scene's own, or one that is placed for what the files hold.
+    ///
+    /// # Errors
+    /// [`SceneError`] for files that cannot be read, where the camera is placed for them.
+    pub fn camera(&self) -> Result<Camera, SceneError> {
+        match (&self.camera, &self.built_in) {
+            (Some(camera), _) => Ok(*camera),
+            (None, Some(name)) => Ok(procedural::camera(name)),
+            (None, None) => self.camera_for(&self.content(&mut Vec::new())?),
+        }
+    }
+
+    /// The same scene seen by another camera.
+    pub fn seen_by(&self, camera: Camera) -> Self {
+        Self {
+            camera: Some(camera),
+            ..self.clone()
+        }
+    }
+
     /// The fragments that the camera sees, and the camera.
     ///
     /// # Errors

@@ -7,6 +7,7 @@ pub mod exr;
 pub mod file;
 mod mesh;
 pub mod npz;
+pub mod path;
 mod procedural;
 mod raster;
 pub mod splat;
@@ -14,6 +15,7 @@ mod texture;
 
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile, SplatEntry};
+pub use path::CameraPath;
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
@@ -21,12 +23,13 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 7] = [
+pub const BUILT_IN: [&str; 8] = [
     "glass-stacks",
     "smoke",
     "hair",
     "foliage",
     "spheres",
+    "sphere-cluster",
     "teapots",
     "splats",
 ];
@@ -229,6 +232,7 @@ mod tests {
             ("hair", 151),
             ("foliage", 10),
             ("spheres", 6),
+            ("sphere-cluster", 16),
             ("teapots", 6),
             ("splats", 101),
         ] {

@@ -10,6 +10,7 @@ mod content_work;
 mod docs;
 mod fuzz;
 mod layers;
+mod over_time;
 mod python;
 mod report;
 mod shaders;
