@@ -66,7 +66,8 @@ enum Command {
     Bench(bench::Bench),
     /// Find out where methods break: numerical stability of each, case by case.
     Stress(stress::Stress),
-    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
+    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will
+    /// do.
     Profile(profile::Profile),
     /// Make one self-contained HTML page of what the other commands measured.
     Report(report::Report),
@@ -108,7 +109,8 @@ fn shown(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Gives the libraries of window systems a folder to look for a display in. Without one they print an error, though nothing here opens a window.
+/// Gives the libraries of window systems a folder to look for a display in. Without one they print an error, though
+/// nothing here opens a window.
 fn settle_environment() {
     let usable =
         std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|d| Path::new(&d).is_absolute() && Path::new(&d).is_dir());
@@ -162,8 +164,8 @@ fn keep_inputs(inputs: &[&std::path::Path], out: &std::path::Path) -> anyhow::Re
     }
 }
 
-/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
-/// it was interrupted.
+/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage
+/// or input, 130 where it was interrupted.
 pub fn main() -> ExitCode {
     settle_environment();
     let cli = match arguments() {

@@ -41,7 +41,8 @@ pub struct Predict {
     /// Which fragments to run the network for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
-    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too thin then.
+    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too
+    /// thin then.
     #[arg(long)]
     prepass: bool,
     /// Replace what is there.

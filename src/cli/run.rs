@@ -36,7 +36,8 @@ pub struct Run {
     check: CheckArguments,
 }
 
-/// The file that marks a folder as one of `run`'s: it holds the configuration from the start, and the results in the end.
+/// The file that marks a folder as one of `run`'s: it holds the configuration from the start, and the results in the
+/// end.
 const MARKER: &str = "run.json";
 
 /// The file that says that a run is at work in a folder.
@@ -99,8 +100,8 @@ impl Run {
 
 /// Takes a folder for this run: its lock, and whether it is that of the same configuration.
 ///
-/// Refused is a folder in which another run is at work, one that holds something `run` did not make, and, unless forced, one that holds a finished model or a
-/// checkpoint of another configuration.
+/// Refused is a folder in which another run is at work, one that holds something `run` did not make, and, unless
+/// forced, one that holds a finished model or a checkpoint of another configuration.
 fn claim(out: &Path, settings: &Value, force: bool) -> anyhow::Result<(Lock, bool)> {
     let holds_something = match std::fs::read_dir(out) {
         Ok(mut entries) => entries.next().is_some(),
@@ -161,7 +162,8 @@ fn difference(before: &Value, now: &Value, place: &str) -> Option<String> {
     }
 }
 
-/// Takes away what an earlier run left and what does not belong to what comes; the rest is replaced file by file, once there is something to replace it by.
+/// Takes away what an earlier run left and what does not belong to what comes; the rest is replaced file by file, once
+/// there is something to replace it by.
 fn clear(out: &Path, resume: bool, same: bool) -> Result<(), FileError> {
     let checkpoint = (!resume).then_some("model.checkpoint.json");
     let finished = (!same).then_some(["model.json", "model.losses.csv"]);

@@ -15,8 +15,8 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Scene {
-    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots, splats; or a scene file (.toml), a mesh (.obj, .gltf, .glb), Gaussian splats (.splat,
-    /// .ply, .spz), a fragment list (.npz) or a deep image (.exr).
+    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots, splats; or a scene file (.toml), a mesh
+    /// (.obj, .gltf, .glb), Gaussian splats (.splat, .ply, .spz), a fragment list (.npz) or a deep image (.exr).
     scene: OsString,
     /// Fragment list to write: .npz, or .exr for a deep image.
     #[arg(long, value_name = "F.npz")]

@@ -75,7 +75,8 @@ impl TryFrom<BackendName> for Backend {
 }
 
 impl TrainOptions {
-    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused before anything is made.
+    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused
+    /// before anything is made.
     pub fn configure(&self, path: &Path) -> anyhow::Result<Config> {
         Backend::try_from(self.backend)
             .and_then(Backend::adapter)

@@ -171,7 +171,8 @@ pub fn check_name(name: &str) -> Result<(), ShapeError> {
     }
 }
 
-/// The name of a network that a file is to hold: the file's own without its ending, other characters than a name may have replaced by "-".
+/// The name of a network that a file is to hold: the file's own without its ending, other characters than a name may
+/// have replaced by "-".
 pub fn name_for(path: &std::path::Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name: String = stem
@@ -208,7 +209,8 @@ impl Mlp {
     /// A network from its layers.
     ///
     /// # Errors
-    /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature set to one output, or a number is not finite.
+    /// [`ShapeError`] where the name cannot be that of a file, the layers do not chain from the width of the feature
+    /// set to one output, or a number is not finite.
     pub fn new(
         name: impl Into<String>,
         feature_set: FeatureSet,
@@ -275,8 +277,9 @@ impl Mlp {
 
     /// The network's answer to one row of features: the reference that every export is held to.
     ///
-    /// Each unit starts from its bias and adds weight × input in the order of the inputs, multiplication and addition rounded apart; ReLU
-    /// between layers; then [`Scalar::sigmoid`], and what the feature set makes of it ([`FeatureSet::answer`]).
+    /// Each unit starts from its bias and adds weight × input in the order of the inputs, multiplication and addition
+    /// rounded apart; ReLU between layers; then [`Scalar::sigmoid`], and what the feature set makes of it
+    /// ([`FeatureSet::answer`]).
     ///
     /// # Panics
     /// If the row is not as wide as the feature set.
@@ -316,7 +319,8 @@ impl Mlp {
         out
     }
 
-    /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still agree to the bit.
+    /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still
+    /// agree to the bit.
     fn forward_block<R: Scalar, const L: usize>(&self, rows: &[f32], out: &mut [R]) {
         let width = self.layers[0].inputs;
         let mut x: Vec<[R; L]> = (0..width)
@@ -356,7 +360,8 @@ impl Mlp {
         }
     }
 
-    /// Answers to many rows on all cores in explicit SIMD with fused multiply-adds: what renderers of fragment lists want.
+    /// Answers to many rows on all cores in explicit SIMD with fused multiply-adds: what renderers of fragment lists
+    /// want.
     ///
     /// Each row's answer depends on that row and on the SIMD level alone.
     ///
@@ -364,7 +369,8 @@ impl Mlp {
     /// `rows: [N, W]`, row by row; the result is `[N]`.
     ///
     /// # Accuracy
-    /// As far from [`Self::forward`] in f64 as that is in f32, within a factor of three; `batched_answers_follow_the_reference` holds it there.
+    /// As far from [`Self::forward`] in f64 as that is in f32, within a factor of three;
+    /// `batched_answers_follow_the_reference` holds it there.
     ///
     /// # Panics
     /// If the length of `rows` is not a multiple of W.
@@ -452,7 +458,8 @@ impl Batched {
     }
 }
 
-/// A network made ready to answer tiles of rows that stand column by column, without turning them around: [`Mlp::predict`] for those who make rows in lanes.
+/// A network made ready to answer tiles of rows that stand column by column, without turning them around:
+/// [`Mlp::predict`] for those who make rows in lanes.
 pub struct Tiled {
     network: Batched,
     level: Level,
@@ -543,7 +550,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Answers in SIMD are as close to f64 as three times our own f32, whatever the sizes and the number of rows, and the same for any company of rows.
+    /// Answers in SIMD are as close to f64 as three times our own f32, whatever the sizes and the number of rows, and
+    /// the same for any company of rows.
     #[test]
     fn batched_answers_follow_the_reference() {
         for (hidden, seed) in [(&[32, 16][..], 1), (&[5], 2), (&[], 3), (&[3, 9, 4], 4), (&[16, 8], 5)] {

@@ -40,8 +40,8 @@ impl Pixel<'_> {
 
 /// The fragments of many pixels, as compressed sparse rows: pixel p holds fragments `offsets[p]..offsets[p + 1]`.
 ///
-/// A list that exists is valid: every constructor checks what [`FragmentList::new`] documents. Lists are equal where their pixels are, whatever was
-/// left out of either.
+/// A list that exists is valid: every constructor checks what [`FragmentList::new`] documents. Lists are equal where
+/// their pixels are, whatever was left out of either.
 #[derive(Debug, Clone)]
 pub struct FragmentList {
     offsets: Vec<u64>,
@@ -66,7 +66,8 @@ impl PartialEq for FragmentList {
     }
 }
 
-/// Where an image lies in the plane of its camera, as OpenEXR says it: x_min, y_min, x_max, y_max, both ends included \[pixels\].
+/// Where an image lies in the plane of its camera, as OpenEXR says it: x_min, y_min, x_max, y_max, both ends included
+/// \[pixels\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Windows {
     /// The pixels that the list holds.
@@ -182,8 +183,8 @@ impl FragmentList {
     /// `offsets: [P + 1]`, `view_z: [F]`, `alpha: [F]`, `color: [F]`.
     ///
     /// # Domain
-    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha in [0, 1]; colour channels in [0, ∞). Empty pixels, a list
-    /// without fragments, ties and alpha 0 or 1 are valid.
+    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha in [0, 1]; colour channels in [0, ∞).
+    /// Empty pixels, a list without fragments, ties and alpha 0 or 1 are valid.
     ///
     /// # Errors
     /// [`FragmentError`] names the first entry that is out of its domain.
@@ -359,8 +360,8 @@ impl FragmentList {
         }
     }
 
-    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of an array that holds `width`
-    /// values for every fragment of the range, in the order of the list.
+    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of
+    /// an array that holds `width` values for every fragment of the range, in the order of the list.
     ///
     /// # Errors
     /// The first error of `f`, whichever thread meets it.
@@ -447,7 +448,8 @@ impl FragmentList {
 
     /// Least and greatest view depth of the whole list; none where it has no fragment.
     ///
-    /// Fragments of alpha 0 have no part in it, unless there are no others: where a ray missed, many programs write a depth of no meaning.
+    /// Fragments of alpha 0 have no part in it, unless there are no others: where a ray missed, many programs write a
+    /// depth of no meaning.
     pub fn depth_range(&self) -> Option<(f32, f32)> {
         let range = |keep: fn(f32) -> bool| {
             self.view_z
@@ -462,7 +464,8 @@ impl FragmentList {
     }
 }
 
-/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop runs on SIMD lanes.
+/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop
+/// runs on SIMD lanes.
 fn first_outside(values: &[f32], domain: impl Fn(f32) -> bool) -> Option<usize> {
     const CHUNK: usize = 1024;
     let chunk = values

@@ -3,7 +3,8 @@
 use serde::Serialize;
 use std::fmt;
 
-/// One kind of content that was left out, or read as something else, where a fragment list was made of a file or a scene.
+/// One kind of content that was left out, or read as something else, where a fragment list was made of a file or a
+/// scene.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// What it is, in the words of its format.

@@ -1,4 +1,5 @@
-//! Pixels and what is in them: fragments, absorbance, the three depths, and the exact answer that everything else approximates.
+//! Pixels and what is in them: fragments, absorbance, the three depths, and the exact answer that everything else
+//! approximates.
 
 pub mod absorbance;
 pub mod abuffer;

@@ -19,7 +19,8 @@ pub struct SceneFile {
     pub built_in: Option<String>,
     /// Seed of a built-in scene; 1 where none is given.
     pub seed: Option<u64>,
-    /// The camera. Where none is given, a built-in scene has one of its own, and one is placed so that it sees all of a file's content.
+    /// The camera. Where none is given, a built-in scene has one of its own, and one is placed so that it sees all of a
+    /// file's content.
     pub camera: Option<Camera>,
     /// Meshes; none where a built-in scene is named.
     #[serde(default, rename = "mesh")]
@@ -101,7 +102,8 @@ impl SceneFile {
         Self::parse(path, text)
     }
 
-    /// A scene of one mesh or one file of splats, by the ending of its name, seen by a camera that is placed for it; none for another name.
+    /// A scene of one mesh or one file of splats, by the ending of its name, seen by a camera that is placed for it;
+    /// none for another name.
     pub fn of_file(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         let file: PathBuf = path.file_name()?.into();
@@ -310,7 +312,8 @@ impl SceneFile {
 
     /// A camera that sees all there is but the outermost of it, from the front and above, a little to the side.
     ///
-    /// In files of splats y points down and z away from the viewer, but for .spz, where as in meshes y points up and z towards the viewer.
+    /// In files of splats y points down and z away from the viewer, but for .spz, where as in meshes y points up and z
+    /// towards the viewer.
     fn camera_for(&self, geometry: &Geometry) -> Result<Camera, SceneError> {
         let corners = geometry.triangles.iter().flatten().map(|v| v.position);
         let textured = geometry.textured.iter().flat_map(|t| t.corners.map(|v| v.position));
@@ -555,7 +558,8 @@ fn quaternion(rotate: Option<Vec3>) -> [f64; 4] {
     all
 }
 
-/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit alike.
+/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit
+/// alike.
 pub(super) fn lit(color: [f32; 3], normal: Vec3) -> [f32; 3] {
     /// Share of the light that comes from everywhere.
     const AMBIENT: f64 = 0.35;

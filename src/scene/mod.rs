@@ -1,4 +1,5 @@
-//! Fragment lists from scenes: meshes, Gaussian splats and built-in scenes seen through a camera, and files of other renderers.
+//! Fragment lists from scenes: meshes, Gaussian splats and built-in scenes seen through a camera, and files of other
+//! renderers.
 //!
 //! What a file holds is read, refused with an error, or named in [`FragmentList::left_out`].
 
@@ -157,7 +158,8 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// The fragments of a scene, with colours, image size and camera planes.
 ///
 /// The result depends on the scene and the options alone, not on the number of threads.
-/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its pixel is left out.
+/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its
+/// pixel is left out.
 ///
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
@@ -173,7 +175,8 @@ pub fn build_with_camera(scene: &SceneFile, options: &Options) -> Result<(Fragme
     scene.build(options)
 }
 
-/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep part is read.
+/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep
+/// part is read.
 ///
 /// # Errors
 /// [`SceneError`] names the file, the place in it and what is expected there.

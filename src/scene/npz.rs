@@ -1,7 +1,8 @@
 //! The fragment list as an `.npz` file: the exchange format for pixels of any renderer.
 //!
-//! `offsets` u32 or u64 `[P + 1]`, `view_z` f32 `[F]`, `alpha` f32 `[F]`; optional `color` f32 `[F, 3]`, `width`, `height`, `near`, `far`, and where a deep image was
-//! not at its origin `data_window`, `display_window` i32 `[4]`. Other arrays are named in [`FragmentList::left_out`].
+//! `offsets` u32 or u64 `[P + 1]`, `view_z` f32 `[F]`, `alpha` f32 `[F]`; optional `color` f32 `[F, 3]`, `width`,
+//! `height`, `near`, `far`, and where a deep image was not at its origin `data_window`, `display_window` i32 `[4]`.
+//! Other arrays are named in [`FragmentList::left_out`].
 
 use super::SceneError;
 use crate::numeric::file::{FileError, Replace};

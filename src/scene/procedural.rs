@@ -473,8 +473,8 @@ fn normal(rng: &mut Stream) -> f64 {
     radius * libm::cos(between(rng, 0.0, TAU))
 }
 
-/// A plant in a pot on a table, as a capture gives it: flat Gaussians along the surfaces, most of them faint, and a haze of large ones that stands for
-/// what no camera saw well.
+/// A plant in a pot on a table, as a capture gives it: flat Gaussians along the surfaces, most of them faint, and a
+/// haze of large ones that stands for what no camera saw well.
 fn splats(out: &mut Builder, seed: u64) {
     const TABLE: u64 = 5000;
     const POT: u64 = 9000;

@@ -1,4 +1,5 @@
-//! Deep images as people have them: parts, windows, layers, opacity for each colour, light without opacity, and files that OpenEXR's own library wrote.
+//! Deep images as people have them: parts, windows, layers, opacity for each colour, light without opacity, and files
+//! that OpenEXR's own library wrote.
 
 use nmt::numeric::file::Replace;
 use nmt::pixel::{FragmentList, Windows};
@@ -230,7 +231,8 @@ fn channels_are_found_in_layers_and_by_colour() {
     assert_eq!((list.len(), said(&list, "volumetric")), (4, 1));
 }
 
-/// Written by OpenEXR's library (`tests/data/deep/make_more.py`): ZSTD in scanlines and tiles, parts, half depths, windows. Values are steps that halves hold.
+/// Written by OpenEXR's library (`tests/data/deep/make_more.py`): ZSTD in scanlines and tiles, parts, half depths,
+/// windows. Values are steps that halves hold.
 #[test]
 fn files_of_openexr_itself() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/deep");

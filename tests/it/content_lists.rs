@@ -1,4 +1,5 @@
-//! Fragment lists as NumPy writes them: every type is taken or named with its remedy, and depths that are none are told.
+//! Fragment lists as NumPy writes them: every type is taken or named with its remedy, and depths that are none are
+//! told.
 
 use assert_cmd::Command;
 use ndarray::{ArrayView1, ArrayView2, arr0};

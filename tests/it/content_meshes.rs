@@ -1,4 +1,5 @@
-//! Meshes as people have them: opacity from wherever a file holds it, text as editors save it, polygons of any shape, and a word about all that is not read.
+//! Meshes as people have them: opacity from wherever a file holds it, text as editors save it, polygons of any shape,
+//! and a word about all that is not read.
 
 use nmt::pixel::FragmentList;
 use nmt::scene::{self, Options, SceneFile};

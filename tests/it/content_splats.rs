@@ -236,7 +236,8 @@ fn seen(folder: &Path, splats: &[Splat], more: &str) -> FragmentList {
     scene::build(&scene, &Options::default()).unwrap()
 }
 
-/// A round splat on the axis: alpha is opacity exp(−d²/2(s² + 0.3)), s its size in pixels, in exactly those pixels where that is at least 1/255. The control has no 0.3.
+/// A round splat on the axis: alpha is opacity exp(−d²/2(s² + 0.3)), s its size in pixels, in exactly those pixels
+/// where that is at least 1/255. The control has no 0.3.
 #[test]
 fn a_round_splat_has_the_alpha_of_its_formula() {
     let folder = tempfile::tempdir().unwrap();
@@ -291,7 +292,8 @@ fn splats_are_placed_by_the_scene_file() {
     );
 }
 
-/// Against NumPy, which projects every splat by itself: the same fragments in the same pixels, alpha within 1e-5, depth within 1e-6. The script's control fails.
+/// Against NumPy, which projects every splat by itself: the same fragments in the same pixels, alpha within 1e-5, depth
+/// within 1e-6. The script's control fails.
 #[test]
 fn fragments_agree_with_an_independent_program() {
     let Ok(python) = std::env::var("NMT_PYTHON") else {

@@ -1,4 +1,5 @@
-//! Finished work is never replaced without a word, two processes never work at one place, and what was interrupted goes on.
+//! Finished work is never replaced without a word, two processes never work at one place, and what was interrupted goes
+//! on.
 
 use assert_cmd::Command;
 use serde_json::Value;
@@ -198,7 +199,8 @@ fn an_interrupted_evaluation_goes_on() {
     run(&whole).assert().success();
     let results: Value = serde_json::from_slice(&at.bytes("e/results.json")).unwrap();
     assert!(!Path::new(&at.path("e/unfinished.json")).exists());
-    // As an interrupt after the first scene leaves it: that scene is done, and its result is what the file says, not what would be computed.
+    // As an interrupt after the first scene leaves it: that scene is done, and its result is what the file says, not
+    // what would be computed.
     let mut first = results["results"][0].clone();
     first["seconds"] = 12345.0.into();
     std::fs::remove_file(at.path("e/results.json")).unwrap();

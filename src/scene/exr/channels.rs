@@ -47,10 +47,12 @@ fn role(base: &str) -> Option<Role> {
     })
 }
 
-/// Finds the channels. Those without a layer's name come first, then the layer that has what is missing; what is used of several layers need not be one's.
+/// Finds the channels. Those without a layer's name come first, then the layer that has what is missing; what is used
+/// of several layers need not be one's.
 ///
 /// # Errors
-/// [`SceneError::FileContent`] where there is no depth, no opacity, or a part of a colour, with the names of all channels.
+/// [`SceneError::FileContent`] where there is no depth, no opacity, or a part of a colour, with the names of all
+/// channels.
 pub(super) fn used(
     bytes: &Bytes<'_>,
     channels: &[(String, Kind)],

@@ -85,7 +85,8 @@ pub(super) fn locate<'a>(
         let table = at.take(table_bytes, &format!("the sample counts of {place}"))?;
         let samples = at.take(sample_bytes, &format!("the samples of {place}"))?;
         let (width, height) = (block_width.min(layout.width - x), block_height.min(layout.height - y));
-        // Counts that would not shrink are stored as they are, and for a tile that is cut off in the size of a whole one.
+        // Counts that would not shrink are stored as they are, and for a tile that is cut off in the size of a whole
+        // one.
         let whole = block_width.saturating_mul(block_height).saturating_mul(4);
         let table = if tiled && table.len() == whole {
             &table[..width * height * 4]

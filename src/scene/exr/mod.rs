@@ -1,11 +1,13 @@
 //! Deep OpenEXR images: files in which a pixel holds many samples in depth.
 //!
-//! Read: every deep part of single-part and multi-part files, scanlines or tiles (level 0), uncompressed or RLE, ZIPS, ZIP or ZSTD compressed, channels of
-//! any of the three number types, with or without a layer's name before them. Used are depth `Z`, opacity `A` (or one for each colour), the colours `R`, `G`, `B`
-//! (all three or none) and `ZBack`. Everything else is named in [`FragmentList::left_out`]. Written: one part of deep scanlines, ZIPS compressed, 32-bit floats.
+//! Read: every deep part of single-part and multi-part files, scanlines or tiles (level 0), uncompressed or RLE, ZIPS,
+//! ZIP or ZSTD compressed, channels of any of the three number types, with or without a layer's name before them. Used
+//! are depth `Z`, opacity `A` (or one for each colour), the colours `R`, `G`, `B` (all three or none) and `ZBack`.
+//! Everything else is named in [`FragmentList::left_out`]. Written: one part of deep scanlines, ZIPS compressed, 32-bit
+//! floats.
 //!
-//! Every size in a file is checked against the bytes that are there before memory is taken for it: no more is ever used than what the compression
-//! methods can reach at best.
+//! Every size in a file is checked against the bytes that are there before memory is taken for it: no more is ever used
+//! than what the compression methods can reach at best.
 
 mod bytes;
 mod channels;
@@ -32,8 +34,9 @@ use std::path::Path;
 /// How a deep image is read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// Slices that a volumetric sample (ZBack > Z) is cut into: fragments at the middles of equal intervals of depth, each of absorbance A/slices, so
-    /// that all together hide as much as the sample. None refuses files with such samples.
+    /// Slices that a volumetric sample (ZBack > Z) is cut into: fragments at the middles of equal intervals of depth,
+    /// each of absorbance A/slices, so that all together hide as much as the sample. None refuses files with such
+    /// samples.
     pub volume_slices: Option<NonZeroU32>,
     /// Name or number of the part that is read; the first deep one where none is given.
     pub part: Option<String>,
@@ -59,12 +62,13 @@ const MAX_SIDE: i64 = 1 << 20;
 
 /// Reads a deep image.
 ///
-/// Colours are divided by alpha; samples that hide and show nothing (alpha 0 and no light) are left out and counted, and those that shine without
-/// hiding get the alpha [`MIN_EMITTING_ALPHA`]. Camera planes come from the float attributes `near` and `far`, where both are there and valid.
+/// Colours are divided by alpha; samples that hide and show nothing (alpha 0 and no light) are left out and counted,
+/// and those that shine without hiding get the alpha [`MIN_EMITTING_ALPHA`]. Camera planes come from the float
+/// attributes `near` and `far`, where both are there and valid.
 ///
 /// # Errors
-/// [`SceneError::FileContent`] names the file and the place: truncation, damage, flat images, missing channels, depths that are not finite and positive,
-/// and volumetric samples where the options refuse them.
+/// [`SceneError::FileContent`] names the file and the place: truncation, damage, flat images, missing channels, depths
+/// that are not finite and positive, and volumetric samples where the options refuse them.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<FragmentList, SceneError> {
     decode(path, &read_file(path)?, options)
 }
@@ -435,7 +439,8 @@ mod tests {
         assert!(layout(0).sample(&value, 0, &mut out).unwrap_err().contains("volume"));
     }
 
-    /// Files that OpenEXR's own library wrote (see `make.py` beside them): every packing, scanlines and tiles that are cut off at the edges.
+    /// Files that OpenEXR's own library wrote (see `make.py` beside them): every packing, scanlines and tiles that are
+    /// cut off at the edges.
     #[test]
     fn files_of_openexr_itself() {
         for form in ["scanline", "tiled"] {

@@ -12,7 +12,8 @@ use crate::scene::SceneError;
 use std::num::NonZeroU32;
 use std::path::Path;
 
-/// Alpha of a sample that shines without hiding anything: small enough that nothing shows what it hides, and large enough for f32 colours.
+/// Alpha of a sample that shines without hiding anything: small enough that nothing shows what it hides, and large
+/// enough for f32 colours.
 pub const MIN_EMITTING_ALPHA: f32 = 1.0 / 65536.0;
 
 /// What is needed to decode a chunk.

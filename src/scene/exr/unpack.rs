@@ -23,7 +23,8 @@ pub(super) enum Content<'a> {
 }
 
 impl Packing {
-    /// The method of a header's number, and the scanlines that it packs together; the number's name where there is none for deep images.
+    /// The method of a header's number, and the scanlines that it packs together; the number's name where there is none
+    /// for deep images.
     pub fn of_method(method: u8) -> Result<(Self, usize), String> {
         let name = match method {
             0 => return Ok((Self::None, 1)),
@@ -45,7 +46,8 @@ impl Packing {
         ))
     }
 
-    /// Most bytes that one compressed byte may stand for: deflate's bound is 1032, run lengths reach 64, a repeated block of ZSTD 2^17 in four bytes.
+    /// Most bytes that one compressed byte may stand for: deflate's bound is 1032, run lengths reach 64, a repeated
+    /// block of ZSTD 2^17 in four bytes.
     pub fn max_expansion(self) -> u64 {
         match self {
             Self::None => 1,
@@ -55,7 +57,8 @@ impl Packing {
         }
     }
 
-    /// `size` bytes from their packed form; what is wrong with it otherwise. Data that would not shrink stands there as it is.
+    /// `size` bytes from their packed form; what is wrong with it otherwise. Data that would not shrink stands there as
+    /// it is.
     pub fn unpack(self, packed: &[u8], size: u64, content: Content<'_>) -> Result<Vec<u8>, String> {
         if packed.len() as u64 == size {
             return Ok(packed.to_vec());
@@ -103,8 +106,9 @@ fn undifferenced(mut out: Vec<u8>) -> Vec<u8> {
         .collect()
 }
 
-/// ZSTD as OpenEXR writes it: 24 bytes ahead of the frame ("zstd-exr", version, flags, size), and in the frame the 16-bit channels of all rows and then
-/// the 32-bit ones, each behind its length, with the first bytes of all numbers before the second ones.
+/// ZSTD as OpenEXR writes it: 24 bytes ahead of the frame ("zstd-exr", version, flags, size), and in the frame the
+/// 16-bit channels of all rows and then the 32-bit ones, each behind its length, with the first bytes of all numbers
+/// before the second ones.
 fn zstd(packed: &[u8], size: usize, content: Content<'_>) -> Result<Vec<u8>, String> {
     let damaged = |what: &str| format!("its ZSTD data is damaged ({what})");
     let (head, frame) = packed.split_at_checked(24).ok_or_else(|| damaged("it ends early"))?;

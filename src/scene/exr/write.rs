@@ -8,13 +8,15 @@ use flate2::{Compress, Compression, FlushCompress, Status};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// Writes a deep image: one part of scanlines, ZIPS compressed; Z, A and, where the list has colours, R, G, B as 32-bit floats, colours premultiplied.
+/// Writes a deep image: one part of scanlines, ZIPS compressed; Z, A and, where the list has colours, R, G, B as 32-bit
+/// floats, colours premultiplied.
 ///
-/// A list without an image size becomes one row of pixels. Depths and alphas are read back bit for bit and a colour to one unit in its last place; fragments of
-/// alpha 0 are written and, as in files of other programs, not read.
+/// A list without an image size becomes one row of pixels. Depths and alphas are read back bit for bit and a colour to
+/// one unit in its last place; fragments of alpha 0 are written and, as in files of other programs, not read.
 ///
 /// # Errors
-/// [`SceneError::FileContent`] for a list without pixels or wider than the format can say; [`SceneError::File`] for what the system reports.
+/// [`SceneError::FileContent`] for a list without pixels or wider than the format can say; [`SceneError::File`] for
+/// what the system reports.
 pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), SceneError> {
     let pixels = list.pixels();
     let (width, height) = match list.size() {

@@ -1,7 +1,7 @@
 //! glTF and GLB meshes.
 //!
-//! The JSON is read once as plain values, in which extensions and what is left out are looked up, and once by the crate `gltf`, which sees only what is
-//! used here: a valid file is never refused over a part that nothing here depends on.
+//! The JSON is read once as plain values, in which extensions and what is left out are looked up, and once by the crate
+//! `gltf`, which sees only what is used here: a valid file is never refused over a part that nothing here depends on.
 
 use super::{Affine, IDENTITY, MAX_TRIANGLES, Overrides, Part, apply, compose, position, rgba, text};
 use crate::numeric::file::read as read_file;

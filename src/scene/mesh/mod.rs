@@ -1,7 +1,8 @@
 //! Meshes from OBJ and glTF/GLB files.
 //!
-//! Geometry, colours and opacities are read, textures of both included; surfaces are shaded by their geometric normals, so a file without normals looks
-//! like any other. What else a file holds is named as left out. Triangles without area cover no sample and vanish by themselves.
+//! Geometry, colours and opacities are read, textures of both included; surfaces are shaded by their geometric normals,
+//! so a file without normals looks like any other. What else a file holds is named as left out. Triangles without area
+//! cover no sample and vanish by themselves.
 
 mod gltf;
 mod obj;

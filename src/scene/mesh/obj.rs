@@ -6,6 +6,7 @@ use crate::pixel::left_out::{LeftOut, note};
 use crate::scene::SceneError;
 use crate::scene::texture::{Channel, Image, Texture, TexturedMaterial, UNMOVED, Wrap};
 use earcut::Earcut;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -81,22 +82,22 @@ impl Source<'_> {
 }
 
 /// Lines with their numbers, comments dropped, those that end in a backslash joined with the next.
-fn lines(text: &str) -> Vec<(usize, String)> {
-    let mut out: Vec<(usize, String)> = Vec::new();
+fn lines(text: &str) -> Vec<(usize, Cow<'_, str>)> {
+    let mut out: Vec<(usize, Cow<'_, str>)> = Vec::new();
     let mut open = false;
     for (i, line) in text.lines().enumerate() {
-        let line = line.trim_end();
+        let line = line.trim();
         let (line, goes_on) = match line.strip_suffix('\\') {
-            Some(line) if !line.trim_start().starts_with('#') => (line, true),
+            Some(line) if !line.starts_with('#') => (line, true),
             _ => (line, false),
         };
         match out.last_mut().filter(|_| open) {
-            Some((_, whole)) => *whole = format!("{whole} {line}"),
-            None => out.push((i + 1, line.to_owned())),
+            Some((_, whole)) => *whole = format!("{whole} {line}").into(),
+            None if line.is_empty() && !goes_on || line.starts_with('#') => {}
+            None => out.push((i + 1, line.into())),
         }
         open = goes_on;
     }
-    out.retain(|(_, line)| !line.trim_start().starts_with('#') && !line.trim().is_empty());
     out
 }
 
@@ -235,7 +236,8 @@ fn library(
     Ok(())
 }
 
-/// A file that another names: as it is written, with the slashes of this system, and by its last part beside the one that names it.
+/// A file that another names: as it is written, with the slashes of this system, and by its last part beside the one
+/// that names it.
 fn beside(folder: &Path, name: &str) -> Result<PathBuf, Vec<PathBuf>> {
     let name = name.trim().trim_matches('"');
     let slashes = name.replace('\\', "/");
@@ -681,7 +683,7 @@ mod tests {
     fn continued_lines_are_one_and_comments_end_where_they_do() {
         let text = "# a \\\nv 1 2 \\\n 3\n\nf 1 2 \\\r\n3\\\n 4\n#x\n";
         let found = lines(text);
-        assert_eq!(found, [(2, "v 1 2   3".to_owned()), (5, "f 1 2  3  4".to_owned())]);
+        assert_eq!(found, [(2, "v 1 2  3".into()), (5, "f 1 2  3 4".into())]);
     }
 
     #[test]

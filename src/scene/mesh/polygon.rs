@@ -5,7 +5,8 @@ use earcut::Earcut;
 
 /// Triangles that cover a polygon, concave ones too; each is three places among the corners.
 ///
-/// The polygon is seen along Newell's normal. Where that has no direction, the polygon has no area and there is no triangle.
+/// The polygon is seen along Newell's normal. Where that has no direction, the polygon has no area and there is no
+/// triangle.
 ///
 /// # Source
 /// Ear clipping by the crate `earcut`.
@@ -40,7 +41,8 @@ pub(super) fn triangles(corners: &[Vec3], cutter: &mut Earcut<f64>) -> Vec<[u32;
 mod tests {
     use super::*;
 
-    /// The triangles' areas add up to the polygon's, in whatever plane it lies; a fan from the first corner would overlap and sum to more.
+    /// The triangles' areas add up to the polygon's, in whatever plane it lies; a fan from the first corner would
+    /// overlap and sum to more.
     #[test]
     fn concave_polygons_are_covered_once() {
         let u = [

@@ -1,7 +1,8 @@
 //! Files of Gaussian splats: `.splat`, `.ply` of the INRIA program and its descendants, and `.spz`.
 //!
-//! Records are read one after the other, so that memory is that of the splats and not that of the file. Colours are those of spherical harmonics of
-//! degree 0, as they stand: splats are trained and composited on display values, and so they are here. Higher degrees are named as left out.
+//! Records are read one after the other, so that memory is that of the splats and not that of the file. Colours are
+//! those of spherical harmonics of degree 0, as they stand: splats are trained and composited on display values, and so
+//! they are here. Higher degrees are named as left out.
 
 use super::Splat;
 use crate::numeric::file::FileError;
@@ -33,7 +34,8 @@ pub struct Splats {
 /// Reads a file of splats, by the ending of its name.
 ///
 /// # Errors
-/// [`SceneError`] names the file and the place in it: truncation, damage, properties that splats need and the file lacks.
+/// [`SceneError`] names the file and the place in it: truncation, damage, properties that splats need and the file
+/// lacks.
 pub fn read(path: &Path) -> Result<Splats, SceneError> {
     let ending = path
         .extension()
@@ -207,7 +209,8 @@ impl<'a> Collected<'a> {
     }
 }
 
-/// Records of 32 bytes: position and scale in six f32, colour and opacity in four bytes, the quaternion w, x, y, z in four more.
+/// Records of 32 bytes: position and scale in six f32, colour and opacity in four bytes, the quaternion w, x, y, z in
+/// four more.
 fn splat(reader: &mut Reader<'_, impl BufRead>) -> Result<Splats, SceneError> {
     let mut out = Collected::new(reader.path);
     let mut record = [0u8; 32];
@@ -594,7 +597,8 @@ fn spz(mut reader: Reader<'_, impl BufRead>) -> Result<Splats, SceneError> {
     Ok(out.done(left_out))
 }
 
-/// A quaternion w, x, y, z from its three smallest parts in nine bits and a sign each; the two highest bits name the largest of x, y, z, w.
+/// A quaternion w, x, y, z from its three smallest parts in nine bits and a sign each; the two highest bits name the
+/// largest of x, y, z, w.
 fn smallest_three(mut bits: u32) -> [f64; 4] {
     let largest = (bits >> 30) as usize;
     let mut xyzw = [0.0; 4];

@@ -1,10 +1,12 @@
 //! Gaussian splats: what they are, and what a camera sees of one.
 //!
 //! # Source
-//! Zwicker, Pfister, van Baar, Gross, *EWA Splatting*, TVCG 2002, as Kerbl et al., *3D Gaussian Splatting*, SIGGRAPH 2023, use it: the Gaussian's
-//! covariance goes through the Jacobian of the projection at its centre, 0.3 square pixels are added for the pixel's own extent, and a fragment's alpha is the
-//! splat's opacity times the Gaussian's value at the pixel's centre. All fragments of a splat have the depth of its centre; those of alpha below 1/255 are
-//! not drawn. The Jacobian is not clamped off the screen and alpha not cut at 0.99, both of which that paper's program does for its training's sake.
+//! Zwicker, Pfister, van Baar, Gross, *EWA Splatting*, TVCG 2002, as Kerbl et al., *3D Gaussian Splatting*, SIGGRAPH
+//! 2023, use it: the Gaussian's covariance goes through the Jacobian of the projection at its centre, 0.3 square pixels
+//! are added for the pixel's own extent, and a fragment's alpha is the splat's opacity times the Gaussian's value at
+//! the pixel's centre. All fragments of a splat have the depth of its centre; those of alpha below 1/255 are not drawn.
+//! The Jacobian is not clamped off the screen and alpha not cut at 0.99, both of which that paper's program does for
+//! its training's sake.
 
 pub mod file;
 
@@ -69,7 +71,8 @@ impl Splat {
         std::array::from_fn(|k| columns[k].map(|v| v * s[k]))
     }
 
-    /// What a camera sees of it; nothing where its centre is not between the planes, where it is too faint, or where it misses the picture.
+    /// What a camera sees of it; nothing where its centre is not between the planes, where it is too faint, or where it
+    /// misses the picture.
     pub(super) fn project(&self, view: &View) -> Option<ScreenSplat> {
         let at = view.to_camera(self.position);
         let view_z = at[2] as f32;
