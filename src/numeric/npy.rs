@@ -5,7 +5,7 @@ use super::file::{FileError, Replace, write_atomically};
 use ndarray::{ArrayD, ArrayView, ArrayViewD, Dimension};
 use ndarray_npy::{ViewElement, ViewNpyError, ViewNpyExt, WritableElement, WriteNpyExt};
 use std::collections::BTreeMap;
-use std::io::{Cursor, Read};
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Greatest size of one array that is read \[bytes\].
@@ -318,25 +318,73 @@ impl Npz {
     }
 }
 
+/// An array on its way into an archive.
+pub enum Entry<'a> {
+    /// The bytes of a `.npy` file, see [`encode`].
+    Encoded(Vec<u8>),
+    /// What writes them, so that they need not be in memory.
+    Streamed {
+        /// About how many they are; archives are told beforehand of files beyond 2 GiB.
+        bytes: u64,
+        /// Writes them.
+        #[expect(clippy::type_complexity)]
+        write: Box<dyn Fn(&mut dyn Write) -> std::io::Result<()> + 'a>,
+    },
+}
+
+impl<'a> Entry<'a> {
+    /// An array that is encoded as it is written.
+    pub fn streamed<T: Element, D: Dimension + 'a>(array: ArrayView<'a, T, D>) -> Self {
+        Self::Streamed {
+            bytes: (array.len() * size_of::<T>()) as u64 + 128,
+            write: Box::new(move |w| array.write_npy(w).map_err(std::io::Error::other)),
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match self {
+            Self::Encoded(bytes) => bytes.len() as u64,
+            Self::Streamed { bytes, .. } => *bytes,
+        }
+    }
+
+    fn write(&self, w: &mut dyn Write) -> std::io::Result<()> {
+        match self {
+            Self::Encoded(bytes) => w.write_all(bytes),
+            Self::Streamed { write, .. } => write(w),
+        }
+    }
+}
+
 /// Writes an `.npz` archive of already encoded arrays ([`encode`]), stored without compression and without time stamps:
 /// the same arrays give the same bytes.
 ///
 /// # Errors
 /// [`FileError`]; nothing half-written is left.
 pub fn write_npz(path: &Path, replace: Replace, arrays: &[(&str, Vec<u8>)]) -> Result<(), FileError> {
-    use std::io::Write;
+    let entries = arrays
+        .iter()
+        .map(|(name, bytes)| (*name, Entry::Encoded(bytes.clone())));
+    write_npz_of(path, replace, &entries.collect::<Vec<_>>())
+}
+
+/// As [`write_npz`], of arrays that need not be encoded before.
+///
+/// # Errors
+/// [`FileError`]; nothing half-written is left.
+pub fn write_npz_of(path: &Path, replace: Replace, arrays: &[(&str, Entry<'_>)]) -> Result<(), FileError> {
     use zip::write::SimpleFileOptions;
     write_atomically(path, replace, |w| {
         let mut archive = zip::ZipWriter::new(w);
-        for (name, bytes) in arrays {
+        for (name, entry) in arrays {
             let options = SimpleFileOptions::default()
                 .compression_method(zip::CompressionMethod::Stored)
                 .last_modified_time(zip::DateTime::default())
-                .large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2);
-            let written = archive
+                .large_file(entry.bytes() > u64::from(u32::MAX) / 2);
+            let started = archive
                 .start_file(format!("{name}.npy"), options)
                 .map_err(std::io::Error::from);
-            if let Err(error) = written.and_then(|()| archive.write_all(bytes)) {
+            if let Err(error) = started.and_then(|()| entry.write(&mut archive)) {
                 // Dropped, an archive would try to finish itself and report that this fails too.
                 std::mem::forget(archive);
                 return Err(error);

@@ -6,7 +6,7 @@
 
 use super::SceneError;
 use crate::numeric::file::{FileError, Replace};
-use crate::numeric::npy::{Element, NpyError, Npz, encode, write_npz};
+use crate::numeric::npy::{Element, Entry, NpyError, Npz, encode, write_npz_of};
 use crate::pixel::{CameraPlanes, FragmentError, FragmentList, LeftOut, Windows};
 use ndarray::{ArrayView1, ArrayView2, arr0};
 use std::path::Path;
@@ -111,28 +111,28 @@ fn window(npz: &Npz, name: &str) -> Result<Option<[i32; 4]>, NpyError> {
 /// [`FileError`]; nothing half-written is left.
 pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), FileError> {
     let mut arrays = vec![
-        ("offsets", encode(ArrayView1::from(list.offsets()))),
-        ("view_z", encode(ArrayView1::from(list.view_z()))),
-        ("alpha", encode(ArrayView1::from(list.alpha()))),
+        ("offsets", Entry::streamed(ArrayView1::from(list.offsets()))),
+        ("view_z", Entry::streamed(ArrayView1::from(list.view_z()))),
+        ("alpha", Entry::streamed(ArrayView1::from(list.alpha()))),
     ];
     if let Some(color) = list.color() {
         let flat = color.as_flattened();
         let view = ArrayView2::from_shape((color.len(), 3), flat).expect("three channels a colour");
-        arrays.push(("color", encode(view)));
+        arrays.push(("color", Entry::streamed(view)));
     }
     if let Some((width, height)) = list.size() {
-        arrays.push(("width", encode(arr0(width).view())));
-        arrays.push(("height", encode(arr0(height).view())));
+        arrays.push(("width", Entry::Encoded(encode(arr0(width).view()))));
+        arrays.push(("height", Entry::Encoded(encode(arr0(height).view()))));
     }
     if let Some(planes) = list.planes() {
-        arrays.push(("near", encode(arr0(planes.near()).view())));
-        arrays.push(("far", encode(arr0(planes.far()).view())));
+        arrays.push(("near", Entry::Encoded(encode(arr0(planes.near()).view()))));
+        arrays.push(("far", Entry::Encoded(encode(arr0(planes.far()).view()))));
     }
     if let Some(Windows { data, display }) = list.windows() {
-        arrays.push(("data_window", encode(ArrayView1::from(&data))));
-        arrays.push(("display_window", encode(ArrayView1::from(&display))));
+        arrays.push(("data_window", Entry::Encoded(encode(ArrayView1::from(&data)))));
+        arrays.push(("display_window", Entry::Encoded(encode(ArrayView1::from(&display)))));
     }
-    write_npz(path, replace, &arrays)
+    write_npz_of(path, replace, &arrays)
 }
 
 fn vector<T: Element>(npz: &Npz, name: &str, array: ndarray::ArrayD<T>) -> Result<Vec<T>, NpyError> {
@@ -209,6 +209,7 @@ fn whole(npz: &Npz, name: &str, value: f64) -> Result<u32, NpyError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::npy::write_npz;
     use proptest::prelude::*;
 
     fn round_trip(list: &FragmentList) -> FragmentList {

@@ -278,10 +278,8 @@ fn splats_are_placed_by_the_scene_file() {
     let plain = seen(folder.path(), &splats(), "");
     let turned = seen(folder.path(), &splats(), "rotate = [0, 0, 180]\n");
     assert_ne!(plain, turned);
-    let twice = format!(
-        "rotate = [0, 0, 360]\ntranslate = [0, 0, 0]\nscale = 1\n[[splats]]\nfile = \"a.splat\"\nscale = 1e-9\ntranslate = [0, 0, -90]\n"
-    );
-    let again = seen(folder.path(), &splats(), &twice);
+    let twice = "rotate = [0, 0, 360]\ntranslate = [0, 0, 0]\nscale = 1\n[[splats]]\nfile = \"a.splat\"\nscale = 1e-9\ntranslate = [0, 0, -90]\n";
+    let again = seen(folder.path(), &splats(), twice);
     assert_eq!((plain.offsets(), plain.view_z()), (again.offsets(), again.view_z()));
     assert!(
         plain
