@@ -398,6 +398,8 @@ impl File<'_> {
                     .any(|x| x.as_f64().is_some_and(|x| x > 0.0))
         };
         let emits = list(&self.json, "materials").iter().filter(emits).count();
+        let unlit = |m: &&Value| extension(m, "KHR_materials_unlit").is_some();
+        let unlit = list(&self.json, "materials").iter().filter(unlit).count();
         let found = [
             (
                 "animations",
@@ -427,6 +429,11 @@ impl File<'_> {
                 "they are drawn; remove them before export",
             ),
             ("emission of materials", emits, "surfaces are matt and lit"),
+            (
+                "materials' being unlit (KHR_materials_unlit)",
+                unlit,
+                "every surface is lit in one way",
+            ),
             (
                 "normal and occlusion maps of materials",
                 maps,
