@@ -451,14 +451,17 @@ impl FragmentList {
     /// Fragments of alpha 0 have no part in it, unless there are no others: where a ray missed, many programs write a
     /// depth of no meaning.
     pub fn depth_range(&self) -> Option<(f32, f32)> {
+        // Branch-free, so that the loop runs on SIMD lanes; depths are finite and positive.
         let range = |keep: fn(f32) -> bool| {
-            self.view_z
+            let ends = self
+                .view_z
                 .iter()
                 .zip(&self.alpha)
-                .filter(|(_, a)| keep(**a))
-                .fold(None, |range: Option<(f32, f32)>, (&v, _)| {
-                    Some(range.map_or((v, v), |(lo, hi)| (lo.min(v), hi.max(v))))
-                })
+                .fold((f32::INFINITY, 0.0f32), |(lo, hi), (&v, &a)| {
+                    let (low, high) = if keep(a) { (v, v) } else { (f32::INFINITY, 0.0) };
+                    (lo.min(low), hi.max(high))
+                });
+            (ends.0 <= ends.1).then_some(ends)
         };
         range(|a| a > 0.0).or_else(|| range(|_| true))
     }

@@ -164,7 +164,8 @@ fn text_is_read_as_it_is_saved() {
     };
     let library = "newmtl gr\u{fc}n\nd 0.5\n";
     let other = "# \u{fc}\nnewmtl other\nd 1\n";
-    let encodings: [&dyn Fn(&str) -> Vec<u8>; 4] = [&|t| t.as_bytes().to_vec(), &mark, &latin, &wide];
+    type Encoding<'a> = &'a dyn Fn(&str) -> Vec<u8>;
+    let encodings: [Encoding<'_>; 4] = [&|t| t.as_bytes().to_vec(), &mark, &latin, &wide];
     for of_mesh in encodings {
         for of_library in encodings {
             for name in [

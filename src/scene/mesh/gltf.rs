@@ -133,6 +133,7 @@ fn check_required(path: &Path, json: &Value) -> Result<(), SceneError> {
 fn document(path: &Path, json: &Value) -> Result<gltf::Document, SceneError> {
     let wrong = |e: String| SceneError::file_content(path, "glTF", e);
     let mut used = json.clone();
+    let has_views = !list(json, "bufferViews").is_empty();
     if let Some(root) = used.as_object_mut() {
         for name in [
             "extensionsRequired",
@@ -201,8 +202,12 @@ fn document(path: &Path, json: &Value) -> Result<gltf::Document, SceneError> {
             .into_iter()
             .flatten()
         {
-            // The library demands bounds of positions, which nothing here looks at.
+            // The library demands bounds of positions and a buffer view, neither of which the format does. Where there is no
+            // view, none is looked at.
             if let Some(accessor) = accessor.as_object_mut() {
+                if has_views && accessor.get("sparse").is_none() {
+                    accessor.entry("bufferView").or_insert_with(|| 0.into());
+                }
                 for bound in ["min", "max"] {
                     accessor.insert(bound.to_owned(), Value::Array(vec![0.into(), 0.into(), 0.into()]));
                 }
@@ -498,7 +503,7 @@ impl File<'_> {
         let json = &list(&self.json["meshes"][mesh.index()], "primitives")[primitive.index()];
         let positions = primitive.get(&Semantic::Positions);
         if extension(json, "KHR_draco_mesh_compression").is_some()
-            && positions.as_ref().is_none_or(|a| a.view().is_none())
+            && positions.as_ref().is_none_or(|a| !self.has_view(a))
         {
             let reason = "its geometry is compressed (KHR_draco_mesh_compression), which is not supported: export the mesh without it";
             return Err(self.wrong(&place, reason));
@@ -777,6 +782,12 @@ impl File<'_> {
         Ok(decoded)
     }
 
+    /// Whether the file gives an accessor a buffer view.
+    fn has_view(&self, accessor: &gltf::Accessor<'_>) -> bool {
+        let json = list(&self.json, "accessors").get(accessor.index());
+        json.is_some_and(|a| a.get("bufferView").is_some())
+    }
+
     /// The bytes of a buffer view.
     fn view(&self, view: &gltf::buffer::View<'_>, place: &str) -> Result<&[u8], SceneError> {
         let json = &list(&self.json, "bufferViews")[view.index()];
@@ -803,7 +814,7 @@ impl File<'_> {
             accessor.data_type(),
         );
         let size = accessor.size();
-        let mut bytes = match accessor.view() {
+        let mut bytes = match accessor.view().filter(|_| self.has_view(accessor)) {
             Some(view) => {
                 let data = self.view(&view, &place)?;
                 let stride = view.stride().unwrap_or(size);
