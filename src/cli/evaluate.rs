@@ -12,7 +12,7 @@ use crate::export::Format;
 use crate::features::MomentFrame;
 use crate::gpu::pipeline::TargetPrecision;
 use crate::gpu::{Gpu, GpuError, MethodShader};
-use crate::model::file;
+use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::{Neural, Skip};
 use crate::oit::{Context, Method, all_names, parse};
@@ -27,13 +27,13 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 pub struct Evaluate {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
-    #[arg(long, value_name = "F.npz|SCENE", required = true, num_args = 1..)]
+    #[arg(long, value_name = "F.npz|SCENE", required = true, value_delimiter = ',', num_args = 1..)]
     fragments: Vec<String>,
     /// Methods, by name; "all" stands for every classic one.
-    #[arg(long, value_delimiter = ',', default_value = "all")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "all")]
     methods: Vec<String>,
     /// Networks to evaluate beside them.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
@@ -271,7 +271,7 @@ impl Evaluate {
     fn methods(&self) -> anyhow::Result<Vec<Asked>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        let shader = |path: &Path| file::load(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
+        let shader = |path: &Path| shipped::open(path).map(|mlp| MethodShader::neural(&mlp, Format::Wgsl));
         for name in &self.methods {
             let (names, demanded) = if name == "all" {
                 (all_names(), false)
@@ -296,14 +296,14 @@ impl Evaluate {
             }
         }
         for path in &self.model {
-            let method = Box::new(Neural::new(file::load(path)?).with_skip(self.skip.into()));
+            let method = Box::new(Neural::new(shipped::open(path)?).with_skip(self.skip.into()));
             methods.push(Asked {
                 method,
                 demanded: true,
                 skips: true,
                 shader: self.gpu.then(|| shader(path)).transpose()?,
             });
-            let after = Neural::new(file::load(path)?)
+            let after = Neural::new(shipped::open(path)?)
                 .with_skip(self.skip.into())
                 .with_frame(MomentFrame::Pixel);
             // A network whose moments are not of logarithmic depth has no other frame.
@@ -346,10 +346,8 @@ fn moving(path: Option<CameraPath>, found: &[(MethodResult, Option<GpuResult>)])
     let truth = found.iter().find_map(|(r, _)| r.over_time?.truth_change_mse);
     match (path, truth) {
         (Some(path), Some(truth)) => format!(
-            "; {} frames, {} degrees a frame, the truth itself changes by {:.3}e-6 (mean square)",
-            path.frames,
-            path.degrees_per_frame,
-            truth * 1e6
+            "; {} frames, {} degrees a frame, the truth itself changes by {:.2e} (mean square)",
+            path.frames, path.degrees_per_frame, truth
         ),
         _ => String::new(),
     }
@@ -400,7 +398,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
     };
     let head = [
         "method",
-        "image MSE x1e-4",
+        "image MSE",
         "PSNR dB",
         "FLIP",
         "T-MSE",
@@ -412,12 +410,12 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
     let mut lines = vec![head.map(str::to_owned).to_vec()];
     let moving = results.iter().any(|(r, _)| r.over_time.is_some());
     if moving {
-        lines[0].extend(["frame change x1e-6", "worst change"].map(str::to_owned));
+        lines[0].extend(["frame change", "worst change"].map(str::to_owned));
     }
     for (r, _) in results {
         let mut line = vec![
             r.method.clone(),
-            number(r.image_mse, &|x| format!("{:.4}", x * 1e4)),
+            number(r.image_mse, &|x| format!("{x:.2e}")),
             number(r.image_psnr_db, &|x| format!("{x:.1}")),
             number(r.flip_mean, &|x| format!("{x:.4}")),
             number(r.transmittance_mse, &|x| format!("{x:.2e}")),
@@ -432,9 +430,7 @@ fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
         ];
         if moving {
             let change = r.over_time;
-            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| {
-                format!("{:.4}", x * 1e6)
-            }));
+            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| format!("{x:.2e}")));
             line.push(number(change.and_then(|c| c.frame_change_worst), &|x| {
                 format!("{x:.4}")
             }));
@@ -455,7 +451,7 @@ fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Optio
         "99.9 % within",
         "worst",
         "FLIP to CPU",
-        "image MSE x1e-4",
+        "image MSE",
         "FLIP",
         "non-finite",
         "pass 1 ms",
@@ -469,7 +465,7 @@ fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Optio
             format!("{:.1e}", r.channel_difference_999),
             format!("{:.1e}", r.channel_difference_worst),
             format!("{:.1e}", r.flip_mean_to_cpu),
-            format!("{:.4}", r.image_mse * 1e4),
+            format!("{:.2e}", r.image_mse),
             format!("{:.4}", r.flip_mean),
             r.image_nonfinite.to_string(),
             milliseconds(r.seconds_accumulate),

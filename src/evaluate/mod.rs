@@ -7,7 +7,6 @@ pub mod image;
 pub mod judge;
 pub mod over_time;
 pub mod picture;
-mod text;
 
 pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};

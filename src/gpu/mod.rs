@@ -16,20 +16,10 @@ pub use method::MethodShader;
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::numeric::require::or_skip;
 
-    /// The device that tests run on; none, said aloud, where there is no adapter, and a failure where `NMT_REQUIRE` names `gpu`.
+    /// The device that tests run on; none, reported as skipped, where there is no adapter.
     pub fn gpu() -> Option<&'static Gpu> {
-        match Gpu::shared() {
-            Ok(gpu) => Some(gpu),
-            Err(why) => {
-                let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-                assert!(
-                    !required.split(',').any(|tool| tool.trim() == "gpu"),
-                    "a GPU is required: {why}"
-                );
-                println!("skipped: {why}");
-                None
-            }
-        }
+        or_skip("gpu", Gpu::shared())
     }
 }

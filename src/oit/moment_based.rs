@@ -2,7 +2,7 @@
 
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// Bits of the colour target that the composite reads: four half-precision channels.
 ///
@@ -30,7 +30,7 @@ pub(super) trait MomentBased: Send + Sync {
     /// What is kept of a pixel.
     type Moments: Copy + Send + Sync;
     /// Ready to be asked.
-    type Curve;
+    type Curve: Send + Sync;
 
     fn name(&self) -> String;
     /// Without the colour target.
@@ -128,6 +128,20 @@ impl<F: MomentBased> Method for PerPixel<F> {
     }
 }
 
+/// Fragments of a pixel from which on threads share them; fewer are not worth handing over.
+const SHARED: usize = 4096;
+
+/// Fills in the answer to each fragment, of a very deep pixel on all threads.
+fn each(out: &mut [f64], answer: impl Fn(usize) -> f64 + Sync) {
+    use rayon::prelude::*;
+    if out.len() < SHARED {
+        out.iter_mut().enumerate().for_each(|(i, out)| *out = answer(i));
+    } else {
+        let out = out.par_iter_mut().with_min_len(SHARED / 4);
+        out.enumerate().for_each(|(i, out)| *out = answer(i));
+    }
+}
+
 struct Pixels<'a, F: MomentBased> {
     method: &'a PerPixel<F>,
     list: &'a FragmentList,
@@ -147,16 +161,14 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
         let place = |v: f32| self.warp.moment(ViewZ(v.into()));
         if !self.method.own {
             let curve = family.curve(moments);
-            for (out, &v) in out.iter_mut().zip(pixel.view_z) {
-                *out = family.transmittance(&curve, place(v));
-            }
+            each(out, |i| family.transmittance(&curve, place(pixel.view_z[i])));
             return;
         }
         let ends = ends(pixel);
-        let with_own = OnceCell::new();
-        for ((out, &v), &alpha) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
-            let own = absorbance(alpha);
-            *out = exact(v, ends, own, total).unwrap_or_else(|| {
+        let with_own = OnceLock::new();
+        each(out, |i| {
+            let (v, own) = (pixel.view_z[i], absorbance(pixel.alpha[i]));
+            exact(v, ends, own, total).unwrap_or_else(|| {
                 let sample = Sample {
                     z: place(v),
                     absorbance: own,
@@ -167,16 +179,16 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
                 if others.is_finite() {
                     return others.clamp(least, 1.0);
                 }
-                // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing that, all that
-                // is known of the others' absorbance in front is that it lies between none and all.
+                // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing
+                // that, all that is known of the others' absorbance in front is that it lies between none and all.
                 let with_own = family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z);
                 if with_own.is_finite() {
                     with_own.clamp(least, 1.0)
                 } else {
                     libm::exp(-OTHERS_OVERESTIMATION * (total - own).max(0.0))
                 }
-            });
-        }
+            })
+        });
     }
 
     fn composite(&self, pixel: Pixel<'_>, p: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {

@@ -5,7 +5,7 @@ use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
 use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, MomentFrame, SumPrecision};
 use crate::model::kernel::Row;
-use crate::model::{Mlp, Tiled, file};
+use crate::model::{Mlp, Tiled, shipped};
 use crate::numeric::lanes::LANES;
 use crate::pixel::{FragmentList, abuffer};
 use serde::{Deserialize, Serialize};
@@ -77,7 +77,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let path = arguments
         .argument
         .ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
-    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model {
+    let mlp = shipped::open(Path::new(path)).map_err(|source| ParseError::Model {
         name: arguments.name.to_owned(),
         source,
     })?;
@@ -346,6 +346,7 @@ impl Accumulated for Answers<'_> {
 mod tests {
     use super::*;
     use crate::features::passes;
+    use crate::model::file;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
     use crate::oit;

@@ -6,6 +6,7 @@ use super::{
     two_moment_passes, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
+use crate::numeric::similar::suggestion;
 
 /// What a name says after its head.
 #[derive(Debug, Clone, Copy)]
@@ -107,12 +108,14 @@ const ENTRIES: &[&[Entry]] = &[
 #[derive(Debug, thiserror::Error)]
 pub enum ParseError {
     /// No method has this name.
-    #[error("there is no method '{name}'; known are {known}")]
+    #[error("there is no method '{name}'; known are {known}{suggestion}")]
     Unknown {
         /// What was asked for.
         name: String,
         /// Patterns of all names.
         known: String,
+        /// The name that was probably meant.
+        suggestion: String,
     },
     /// The part after the colon is wrong.
     #[error("{name}: {expected} after the colon, found {found}")]
@@ -165,6 +168,7 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
         None => Err(ParseError::Unknown {
             name: name.to_owned(),
             known: entries().map(|e| e.pattern).collect::<Vec<_>>().join(", "),
+            suggestion: suggestion(name, all_names().iter().map(String::as_str)),
         }),
     }
 }

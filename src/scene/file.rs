@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// A scene: one of the built-in ones, or meshes and splats, and the camera.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// Name of a built-in scene, see [`BUILT_IN`]; none where there are meshes or splats.
@@ -35,6 +36,7 @@ pub struct SceneFile {
 
 /// A mesh of a scene file. Its points are scaled, then rotated about x, y and z in this order, then translated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshEntry {
     /// An OBJ, glTF or GLB file; relative to the scene file's folder.
@@ -56,6 +58,7 @@ pub struct MeshEntry {
 
 /// A file of Gaussian splats in a scene file, placed as a mesh is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SplatEntry {
     /// A .splat, .ply or .spz file; relative to the scene file's folder.
@@ -70,6 +73,7 @@ pub struct SplatEntry {
 
 /// Opacity and colour that take the place of a material's own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MaterialOverride {
     /// Opacity, in [0, 1].

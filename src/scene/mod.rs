@@ -20,6 +20,7 @@ pub use path::CameraPath;
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
+use crate::numeric::similar::suggestion;
 use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
@@ -95,7 +96,7 @@ pub enum SceneError {
         expected: String,
     },
     /// There is no built-in scene of this name.
-    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml", BUILT_IN.join(", "))]
+    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml{}", BUILT_IN.join(", "), suggestion(name, BUILT_IN))]
     UnknownBuiltIn {
         /// The name.
         name: String,

@@ -2,13 +2,15 @@
 //! independent reader.
 
 mod cli;
+#[path = "../common/mod.rs"]
+mod common;
 mod content_deep;
 mod content_lists;
 mod content_meshes;
 mod content_splats;
 mod content_work;
 mod docs;
-mod fuzz;
+mod documents;
 mod layers;
 mod over_time;
 mod python;
