@@ -129,7 +129,7 @@ fn claim(out: &Path, settings: &Value, force: bool) -> anyhow::Result<(Lock, boo
         None => Ok((lock, true)),
         Some(_) if force || !kept => Ok((lock, false)),
         Some(difference) => bail!(
-            "{}: holds the run of another configuration, '{}' ({difference}); choose another --out, or pass --force to replace it",
+            "{}: holds the run of the configuration '{}', which is another ({difference}); choose another --out, or pass --force to replace it",
             out.display(),
             before["name"].as_str().unwrap_or("of an earlier version")
         ),
