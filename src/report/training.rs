@@ -108,7 +108,8 @@ fn facts(model: &Document, p: &Value, name: &str) -> Vec<(&'static str, String)>
     if let Ok(p) = serde_json::from_value::<Provenance>(p.clone())
         && let (Some(best), Some(epochs)) = (p.best_epoch_text(), p.epochs_text())
     {
-        facts.push(("best epoch", format!("{best}, of {epochs}")));
+        let joined = if best.contains(' ') { ", all in all" } else { " of" };
+        facts.push(("best epoch", format!("{best}{joined} {epochs}")));
     }
     facts.extend(text(p, &["backend"]).map(|t| ("trained by", t.to_owned())));
     facts
