@@ -4,6 +4,8 @@
 
 pub mod classic;
 pub mod compute;
+#[cfg(test)]
+mod core;
 pub mod device;
 pub mod list;
 pub mod method;

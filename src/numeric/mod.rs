@@ -1,5 +1,5 @@
-//! Numbers only, no graphics words: precision-generic arithmetic, orthogonal polynomials, roots, storage rounding, random streams, tolerances,
-//! hashing, safe file writing, and tools that a machine may lack.
+//! Numbers only, no graphics words: precision-generic arithmetic, orthogonal polynomials, roots, storage rounding,
+//! random streams, tolerances, hashing, safe file writing, and tools that a machine may lack.
 
 pub mod complex;
 pub mod digest;

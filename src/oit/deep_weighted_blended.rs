@@ -10,8 +10,7 @@ use std::path::Path;
 /// Its name on the command line.
 pub const NAME: &str = "deep-weighted-blended";
 
-/// Sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and what is left of the background in R16F.
-pub const BITS_PER_PIXEL: u32 = 112;
+pub use crate::features::deep_weighted_blended::BITS_PER_PIXEL;
 
 /// The network was made for other features.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! Methods by their names on the command line.
 
 use super::{
-    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
+    Method, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
     low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
     two_moment_passes, weighted_average, weighted_blended, weighted_sum,
 };
@@ -101,6 +101,7 @@ const ENTRIES: &[&[Entry]] = &[
     &[dual_depth_peeling::ENTRY],
     &[multi_layer_alpha::ENTRY],
     &[adaptive::ENTRY],
+    &[core::ENTRY],
     &[neural::ENTRY],
 ];
 
