@@ -167,58 +167,6 @@ fn walk(folder: &Path) -> Vec<String> {
     out
 }
 
-#[test]
-fn an_interrupted_evaluation_goes_on() {
-    let at = Place::new();
-    let out = at.path("e");
-    let args = |scenes: &[&'static str], methods: &'static str| {
-        let mut args = vec![
-            "evaluate",
-            "--size",
-            "24x24",
-            "--methods",
-            methods,
-            "--out",
-            &out,
-            "--fragments",
-        ];
-        args.extend(scenes);
-        args.iter().map(|a| (*a).to_owned()).collect::<Vec<_>>()
-    };
-    let run = |args: &[String]| {
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        nmt(&args)
-    };
-    // Everything is looked at before the first scene is computed.
-    let said = message(&mut run(&args(&["spheres", "gone.npz"], "weighted-average")));
-    assert!(
-        said.contains("gone.npz") && !Path::new(&at.path("e/spheres")).exists(),
-        "{said}"
-    );
-    let whole = args(&["spheres", "teapots"], "weighted-average");
-    run(&whole).assert().success();
-    let results: Value = serde_json::from_slice(&at.bytes("e/results.json")).unwrap();
-    assert!(!Path::new(&at.path("e/unfinished.json")).exists());
-    // As an interrupt after the first scene leaves it: that scene is done, and its result is what the file says, not
-    // what would be computed.
-    std::fs::remove_file(at.path("e/results.json")).unwrap();
-    // The request is what the program itself wrote: it is taken from a run that fails at the end.
-    std::fs::create_dir_all(at.path("e/results.json/blocked")).unwrap();
-    let failed = run(&whole).arg("--force").output().unwrap();
-    assert!(!failed.status.success());
-    std::fs::remove_dir_all(at.path("e/results.json")).unwrap();
-    let mut kept: Value = serde_json::from_slice(&at.bytes("e/unfinished.json")).unwrap();
-    kept["scenes"]["spheres"]["rows"][0]["cpu"]["seconds"] = 12345.0.into();
-    kept["scenes"].as_object_mut().unwrap().remove("teapots");
-    at.write("e/unfinished.json", &kept.to_string());
-    let said = message(&mut run(&args(&["spheres", "teapots"], "weighted-sum")));
-    assert!(said.contains("another evaluation was interrupted here"), "{said}");
-    run(&whole).assert().success();
-    let again: Value = serde_json::from_slice(&at.bytes("e/results.json")).unwrap();
-    assert_eq!(again["results"][0]["seconds"], 12345.0);
-    assert_eq!(again["results"][1]["image_mse"], results["results"][1]["image_mse"]);
-}
-
 /// Window systems' libraries find no display, and say nothing about it.
 #[test]
 fn no_error_is_printed_that_is_none() {
