@@ -323,7 +323,7 @@ fn seed() -> u64 {
 }
 
 /// The number of parsers that share the budget.
-const PARSERS: u32 = 12;
+const PARSERS: u32 = 13;
 
 fn budget(cases: u32) -> Budget {
     match std::env::var("NMT_FUZZ_SECONDS") {
@@ -622,13 +622,18 @@ fn deep_images() {
         "tiled_no",
         "tiled_rle",
         "tiled_zips",
+        "zstd_tiled",
+        "parts",
     ]
     .map(|n| format!("tests/data/deep/{n}.exr"));
     let read = |folder: &Path, name: &str| {
         let path = folder.join(name);
         drop(scene::exr::read(
             &path,
-            &scene::exr::ReadOptions { volume_slices: None },
+            &scene::exr::ReadOptions {
+                volume_slices: None,
+                part: None,
+            },
         ));
         list(scene::exr::read(&path, &scene::exr::ReadOptions::default()), name)
     };
@@ -749,6 +754,50 @@ fn gltf_meshes() {
         ],
     );
     check(&parser, 600);
+}
+
+/// Splats in each of their formats: one, so that most changes meet a number.
+#[test]
+fn splats() {
+    use std::io::Write;
+    let numbers = [0.1f32, -0.2, 0.3, 0.05, 0.02, 0.04];
+    let names = "x y z f_dc_0 f_dc_1 f_dc_2 opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3";
+    let header = |format: &str| {
+        let properties: String = names.split(' ').map(|n| format!("property float {n}\n")).collect();
+        format!("ply\nformat {format} 1.0\nelement vertex 2\n{properties}end_header\n").into_bytes()
+    };
+    let row = [
+        0.1f32, -0.2, 0.3, 0.5, -0.5, 1.0, 2.0, -3.0, -4.0, -3.5, 1.0, 0.1, 0.2, 0.3,
+    ];
+    let binary: Vec<u8> = [row, row].as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let line = row.map(|x| x.to_string()).join(" ");
+    let mut record: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    record.extend([200, 100, 50, 180, 200, 140, 120, 110]);
+    let mut spz = b"NGSP\x03\0\0\0\x02\0\0\0\x01\x0c\0\0".to_vec();
+    spz.extend([10; 2 * (9 + 1 + 3 + 3 + 4 + 9)]);
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::none());
+    gzip.write_all(&spz).unwrap();
+    let seeds = vec![
+        ("a.splat".to_owned(), record.repeat(3)),
+        ("a.ply".to_owned(), [header("binary_little_endian"), binary].concat()),
+        (
+            "b.ply".to_owned(),
+            [header("ascii"), format!("{line}\n{line}\n").into_bytes()].concat(),
+        ),
+        ("a.spz".to_owned(), gzip.finish().unwrap()),
+    ];
+    let read = |folder: &Path, name: &str| {
+        let scene = scene::open(folder.join(name).to_str().unwrap()).map_err(|e| e.to_string())?;
+        list(scene::build(&scene, &SMALL), name)
+    };
+    check(
+        &Parser {
+            name: "splats",
+            seeds,
+            read: Box::new(read),
+        },
+        600,
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::dataset::DatasetConfig;
 use crate::model::mlp::check_name;
-use crate::numeric::file::read;
+use crate::numeric::file::{read, without_mark};
 use crate::synth::SynthConfig;
 use crate::train::TrainConfig;
 use anyhow::{Context, bail};
@@ -38,7 +38,15 @@ struct Head {
 }
 
 fn text_of(path: &Path) -> anyhow::Result<String> {
-    String::from_utf8(read(path)?).with_context(|| format!("{}: not a text file", path.display()))
+    let bytes = read(path)?;
+    let text = std::str::from_utf8(without_mark(&bytes));
+    let text = text.with_context(|| {
+        format!(
+            "{}: not UTF-8, which TOML is written in; save the file as UTF-8",
+            path.display()
+        )
+    })?;
+    Ok(text.to_owned())
 }
 
 /// Puts values over others; tables are merged, everything else is replaced.

@@ -2,8 +2,8 @@
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load, moving_scene};
-use super::ui::{Ui, report, table};
+use super::scene::{SceneOptions, ViewOptions, load, moving_scene, refuse_outside};
+use super::ui::{Ui, table};
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
@@ -133,7 +133,8 @@ impl Evaluate {
         let mut results = Vec::new();
         let mut refused = false;
         for (scene, name) in self.fragments.iter().zip(&names) {
-            let list = load(scene, &self.options)?;
+            let list = load(ui, scene, &self.options)?;
+            refuse_outside(&list, context.planes)?;
             let truth = Truth::new(&list, background);
             let mut remarks = String::new();
             let folder = self.out.join(name);
@@ -246,7 +247,7 @@ impl Evaluate {
                 result.insert("skip".to_owned(), json!(skip));
             }
         }
-        let report = report("evaluate", results);
+        let report = ui.report("evaluate", results);
         let json = serde_json::to_string_pretty(&report)? + "\n";
         write_atomically(&self.out.join(RESULTS), replace, |w| w.write_all(json.as_bytes()))?;
         if ui.json() {

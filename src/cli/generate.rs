@@ -3,7 +3,7 @@
 use super::config::Config;
 use super::scene::{SceneOptions, load};
 use super::ui::Ui;
-use super::{Verdict, keep_inputs, ui};
+use super::{Verdict, keep_inputs, shown, ui};
 use crate::dataset::{self, Dataset, file};
 use crate::numeric::file::{Replace, may_write};
 use crate::pixel::FragmentList;
@@ -46,7 +46,7 @@ impl Generate {
         let dataset = if self.from.is_empty() {
             build(&config, ui)?
         } else {
-            self.build_from_scenes(&config)?
+            self.build_from_scenes(&config, ui)?
         };
         let seconds = start.elapsed().as_secs_f64();
         file::write(&self.out, replace, &dataset)?;
@@ -62,7 +62,7 @@ impl Generate {
             ui.print_json(
                 "generate",
                 vec![json!({
-                    "dataset": self.out, "hash": dataset.manifest.hash, "pairs_per_second": pairs as f64 / seconds, "seconds": seconds,
+                    "dataset": shown(&self.out), "hash": dataset.manifest.hash, "pairs_per_second": pairs as f64 / seconds, "seconds": seconds,
                     "training_pixels": dataset.manifest.training.pixels, "training_pairs": dataset.manifest.training.pairs,
                     "validation_pixels": dataset.manifest.validation.pixels, "validation_pairs": dataset.manifest.validation.pairs,
                 })],
@@ -78,11 +78,11 @@ impl Generate {
         Ok(Verdict::Fine)
     }
 
-    fn build_from_scenes(&self, config: &Config) -> anyhow::Result<Dataset> {
+    fn build_from_scenes(&self, config: &Config, ui: &Ui) -> anyhow::Result<Dataset> {
         let lists = self
             .from
             .iter()
-            .map(|name| load(name, &self.options))
+            .map(|name| load(ui, name, &self.options))
             .collect::<anyhow::Result<Vec<_>>>()?;
         let named: Vec<(&str, &FragmentList)> = self.from.iter().map(String::as_str).zip(&lists).collect();
         Ok(dataset::build_from_lists(

@@ -4,6 +4,7 @@ use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::features::FeatureSet;
 use crate::model::file;
+use crate::model::mlp::name_for;
 use crate::numeric::file::Replace;
 use anyhow::bail;
 use clap::Args;
@@ -38,12 +39,8 @@ impl Import {
             );
         };
         keep_inputs(&[&self.weights], &self.out)?;
-        let stem = self
-            .out
-            .file_stem()
-            .map(|s| s.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        let mlp = file::import(&self.weights, &self.name.unwrap_or(stem), set)?;
+        let name = self.name.unwrap_or_else(|| name_for(&self.out));
+        let mlp = file::import(&self.weights, &name, set)?;
         file::save(&self.out, if self.force { Replace::Yes } else { Replace::No }, &mlp)?;
         if ui.json() {
             ui.print_json(

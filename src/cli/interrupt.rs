@@ -13,6 +13,7 @@ pub fn install() {
     // Where no handler can be installed the system's own ends the process, which is what would be done anyway.
     let _ = ctrlc::set_handler(|| {
         if !GRACEFUL.load(Ordering::SeqCst) || REQUESTED.swap(true, Ordering::SeqCst) {
+            crate::numeric::file::remove_transient_files();
             eprintln!("interrupted");
             std::process::exit(EXIT_CODE.into());
         }

@@ -22,6 +22,7 @@ mod train;
 mod ui;
 
 use clap::{Args, Parser, Subcommand};
+use std::path::Path;
 use std::process::ExitCode;
 use ui::Ui;
 
@@ -109,6 +110,64 @@ enum Verdict {
     Interrupted,
 }
 
+impl Command {
+    /// Its name, as a user types it.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Run(_) => "run",
+            Self::Generate(_) => "generate",
+            Self::Train(_) => "train",
+            Self::Export(_) => "export",
+            Self::Check(_) => "check",
+            Self::Predict(_) => "predict",
+            Self::Evaluate(_) => "evaluate",
+            Self::Scene(_) => "scene",
+            Self::Bench(_) => "bench",
+            Self::Stress(_) => "stress",
+            Self::Profile(_) => "profile",
+            Self::Report(_) => "report",
+            Self::Import(_) => "import",
+            Self::Completions(_) => "completions",
+            Self::Man(_) => "man",
+            Self::Schema(_) => "schema",
+        }
+    }
+}
+
+/// A path as text, for results; names of files need not be UTF-8.
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// Gives the libraries of window systems a folder to look for a display in. Without one they print an error, though
+/// nothing here opens a window.
+fn settle_environment() {
+    let usable =
+        std::env::var_os("XDG_RUNTIME_DIR").is_some_and(|d| Path::new(&d).is_absolute() && Path::new(&d).is_dir());
+    if cfg!(unix) && !usable {
+        // SAFETY: this is the first thing that the process does; no other thread reads the environment yet.
+        unsafe { std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir()) };
+    }
+}
+
+/// The arguments; what is wrong with them is printed, as JSON too where they ask for that.
+fn arguments() -> Result<Cli, ExitCode> {
+    Cli::try_parse().map_err(|error| {
+        let usage = error.use_stderr();
+        if usage && std::env::args_os().any(|a| a == "--json") {
+            let command = std::env::args_os()
+                .nth(1)
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            Ui::new(false, true).print_error(&command, error.to_string().trim_end());
+        }
+        // Where this fails, there is nobody to tell.
+        drop(error.print());
+        ExitCode::from(if usage { 2 } else { 0 })
+    })
+}
+
 /// An error with its causes, each said once: many messages hold their cause already.
 fn explain(error: &anyhow::Error) -> String {
     error.chain().skip(1).fold(error.to_string(), |text, cause| {
@@ -135,12 +194,17 @@ fn keep_inputs(inputs: &[&std::path::Path], out: &std::path::Path) -> anyhow::Re
     }
 }
 
-/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
-/// it was interrupted.
+/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage
+/// or input, 130 where it was interrupted.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    settle_environment();
+    let cli = match arguments() {
+        Ok(cli) => cli,
+        Err(code) => return code,
+    };
     interrupt::install();
     let ui = Ui::new(cli.global.quiet, cli.global.json);
+    let command = cli.command.name();
     let done = match cli.command {
         Command::Run(c) => c.execute(&ui),
         Command::Generate(c) => c.execute(&ui),
@@ -164,7 +228,9 @@ pub fn main() -> ExitCode {
         Ok(Verdict::CheckFailed) => ExitCode::from(1),
         Ok(Verdict::Interrupted) => ExitCode::from(interrupt::EXIT_CODE),
         Err(error) => {
-            eprintln!("error: {}", explain(&error));
+            let message = explain(&error);
+            ui.print_error(command, &message);
+            eprintln!("error: {message}");
             ExitCode::from(2)
         }
     }

@@ -1,7 +1,8 @@
 //! `nmt predict`
 
+use super::scene::{load_list, refuse_outside};
 use super::ui::Ui;
-use super::{Verdict, keep_inputs};
+use super::{Verdict, keep_inputs, shown};
 use crate::evaluate::transmittance_error;
 use crate::features::{MomentFrame, OutputMeaning};
 use crate::infer::{Answered, Class, Skip, Tally};
@@ -10,8 +11,7 @@ use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
 use crate::oit::Context;
 use crate::oit::neural::Neural;
-use crate::pixel::{CameraPlanes, abuffer};
-use crate::scene;
+use crate::pixel::{CameraPlanes, FragmentList, abuffer};
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use ndarray::ArrayView1;
@@ -29,6 +29,9 @@ pub struct Predict {
     /// NumPy array to write: transmittance of every fragment, f32, in the order of the list.
     #[arg(long, value_name = "T.npy")]
     out: PathBuf,
+    /// Part of a deep image, instead of the first deep one.
+    #[arg(long, value_name = "NAME|N")]
+    part: Option<String>,
     /// Near plane of the camera, instead of the list's own [scene units].
     #[arg(long, requires = "far")]
     near: Option<f32>,
@@ -38,7 +41,8 @@ pub struct Predict {
     /// Which fragments to run the network for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
-    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too thin then.
+    /// Take moments between each pixel's own nearest and farthest fragment, which a prepass has found: no pixel is too
+    /// thin then.
     #[arg(long)]
     prepass: bool,
     /// Replace what is there.
@@ -83,7 +87,11 @@ impl Predict {
                 self.model.display()
             );
         }
-        let list = scene::read(&self.fragments)?;
+        let list = load_list(ui, &self.fragments, self.part.as_deref())?;
+        refuse_outside(&list, planes)?;
+        if matches!(self.skip, SkipName::Visible) {
+            say_visible_bound(ui, &list);
+        }
         let shape = mlp.shape();
         let skip = Skip::from(self.skip);
         let frame = if self.prepass {
@@ -116,7 +124,7 @@ impl Predict {
                 vec![json!({
                     "network": shape, "fragments": list.len(), "pixels": list.pixels(), "depth_complexity": list.depth_complexity(),
                     "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
-                    "seconds": seconds, "fragments_per_second": rate, "file": self.out, "skip": skip, "frame": frame, "network_rows": tally.rows,
+                    "seconds": seconds, "fragments_per_second": rate, "file": shown(&self.out), "skip": skip, "frame": frame, "network_rows": tally.rows,
                     "seconds_pass_1": tally.seconds_pass_1, "seconds_pass_2": tally.seconds_pass_2, "fragments_by_class": by_class(&tally),
                 })],
             )?;
@@ -140,6 +148,16 @@ impl Predict {
             ))?;
         }
         Ok(Verdict::Fine)
+    }
+}
+
+/// Says how far the promise of `--skip visible` scales with colours beyond 1.
+pub fn say_visible_bound(ui: &Ui, list: &FragmentList) {
+    let brightest = list.brightest();
+    if brightest > 1.0 {
+        ui.warn(&format!(
+            "--skip visible: colours reach {brightest}, so channels of the image change by up to {brightest}/512 instead of 1/512"
+        ));
     }
 }
 

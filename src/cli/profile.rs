@@ -1,9 +1,10 @@
 //! `nmt profile`
 
-use super::scene::{SceneOptions, ViewOptions, load};
+use super::scene::{SceneOptions, ViewOptions, load, refuse_outside};
 use super::ui::{Ui, table};
 use super::{Verdict, interrupt, keep_inputs};
 use crate::features::MomentDepthKind;
+use crate::model::mlp::name_for;
 use crate::model::{Mlp, file, shipped};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::oit::neural::Skip;
@@ -92,7 +93,8 @@ impl Profile {
             }
         }
         let context = self.view.context()?;
-        let list = load(&self.fragments, &self.options)?;
+        let list = load(ui, &self.fragments, &self.options)?;
+        refuse_outside(&list, context.planes)?;
         let scene = Scene::new(&list, context, background);
         match (&self.specialise, &self.simplify) {
             (Some(model), _) => self.specialise(ui, &scene, model, replace),
@@ -146,7 +148,7 @@ impl Profile {
         });
         if let Some(folder) = &self.out {
             create_folder(folder)?;
-            let json = serde_json::to_string_pretty(&super::ui::report("profile", vec![result.clone()]))? + "\n";
+            let json = serde_json::to_string_pretty(&ui.report("profile", vec![result.clone()]))? + "\n";
             let drawing = facts.drawing(&format!("{name}: {} fragments", facts.fragments));
             for (file, text) in FILES.iter().zip([&json, &drawing, &recommendation.config]) {
                 write_atomically(&folder.join(file), replace, |w| w.write_all(text.as_bytes()))?;
@@ -192,7 +194,7 @@ impl Profile {
             other => other.with_context(|| model.display().to_string())?,
         };
         let out = self.out.as_ref().expect("clap demands it");
-        file::save(out, replace, &made.mlp)?;
+        file::save(out, replace, &made.mlp.clone().renamed(name_for(out))?)?;
         let chosen = &made.attempts[made.chosen];
         if !chosen.kept {
             ui.warn("warning: no size keeps the error on the whole scene and on what was held out; the network written is the first one, retrained at its own size");
@@ -224,7 +226,7 @@ impl Profile {
             );
         }
         let out = self.out.as_ref().expect("clap demands it");
-        file::save(out, replace, &left)?;
+        file::save(out, replace, &left.clone().renamed(name_for(out))?)?;
         if ui.json() {
             ui.print_json(
                 "profile",

@@ -3,8 +3,8 @@
 use super::check::{CheckArguments, findings, to_json, verdict};
 use super::config::Config;
 use super::train::{TrainOptions, Trained, fit};
-use super::ui::{Ui, report, table};
-use super::{Verdict, generate};
+use super::ui::{Ui, table};
+use super::{Verdict, generate, shown};
 use crate::check::{Finding, Status};
 use crate::dataset::build::pixels_holding;
 use crate::dataset::file as dataset_file;
@@ -12,11 +12,11 @@ use crate::evaluate::transmittance_error;
 use crate::export::{self, Format};
 use crate::features::MomentDepthKind;
 use crate::model::Mlp;
-use crate::numeric::file::{FileError, Replace, create_folder, write_atomically};
+use crate::numeric::file::{FileError, Lock, Replace, remove_stale_files, write_atomically};
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{Context, neural::Neural};
 use crate::synth::{Purpose, Synth};
-use crate::train::checkpoint::path_for;
+use crate::train::checkpoint::{lock_path_for, path_for};
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
@@ -36,8 +36,12 @@ pub struct Run {
     check: CheckArguments,
 }
 
-/// The file that marks a folder as one of `run`'s, and holds its results in the end.
+/// The file that marks a folder as one of `run`'s: it holds the configuration from the start, and the results in the
+/// end.
 const MARKER: &str = "run.json";
+
+/// The file that says that a run is at work in a folder.
+const LOCK: &str = "run.lock";
 
 impl Run {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
@@ -45,11 +49,17 @@ impl Run {
         let out = self.out.unwrap_or_else(|| Path::new("target/nmt").join(&config.name));
         let model = out.join("model.json");
         let checkpoint = path_for(&model);
-        claim(&out, &config.name, self.train.force)?;
+        let settings = config.to_json();
+        let (_folder, same) = claim(&out, &settings, self.train.force)?;
+        let _training = Lock::acquire(&lock_path_for(&model))?;
         self.train.settle_checkpoint(&checkpoint)?;
         let (dataset_folder, exports) = (out.join("dataset"), out.join("exports"));
-        clear(&out, self.train.resume)?;
-        write_json(&out.join(MARKER), &report("run", vec![json!({ "name": config.name })]))?;
+        for folder in [&out, &dataset_folder, &exports] {
+            remove_stale_files(folder)?;
+        }
+        clear(&out, self.train.resume, same)?;
+        let started = json!({ "name": config.name, "config": settings });
+        write_json(&out.join(MARKER), &ui.report("run", vec![started]))?;
 
         let stages = ui.stage();
         let start = Instant::now();
@@ -70,14 +80,14 @@ impl Run {
 
         let mut summary = trained.to_json();
         let more = json!({
-            "name": config.name, "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
+            "name": config.name, "config": settings, "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
             "fragments": error.count(), "generate_seconds": generated, "total_seconds": start.elapsed().as_secs_f64(),
-            "checks": findings.iter().map(to_json).collect::<Vec<_>>(), "folder": out,
+            "checks": findings.iter().map(to_json).collect::<Vec<_>>(), "folder": shown(&out),
         });
         if let (Some(summary), Value::Object(more)) = (summary.as_object_mut(), more) {
             summary.extend(more);
         }
-        let report = report("run", vec![summary]);
+        let report = ui.report("run", vec![summary]);
         write_json(&out.join(MARKER), &report)?;
         if ui.json() {
             ui.print(&format!("{}\n", serde_json::to_string_pretty(&report)?))?;
@@ -88,40 +98,76 @@ impl Run {
     }
 }
 
-/// Refuses a folder that holds something and that `run` did not make, or made of another configuration.
-fn claim(out: &Path, name: &str, force: bool) -> anyhow::Result<()> {
+/// Takes a folder for this run: its lock, and whether it is that of the same configuration.
+///
+/// Refused is a folder in which another run is at work, one that holds something `run` did not make, and, unless
+/// forced, one that holds a finished model or a checkpoint of another configuration.
+fn claim(out: &Path, settings: &Value, force: bool) -> anyhow::Result<(Lock, bool)> {
     let holds_something = match std::fs::read_dir(out) {
         Ok(mut entries) => entries.next().is_some(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
         Err(error) => return Err(FileError::io(out, "cannot be used as the output folder")(error).into()),
     };
-    if holds_something && !out.join(MARKER).exists() {
+    // A run that has just begun has its lock and no marker yet.
+    if holds_something && !out.join(MARKER).exists() && !out.join(LOCK).exists() {
         bail!(
             "{}: holds files that 'nmt run' did not make; choose another --out",
             out.display()
         );
     }
-    let marker = std::fs::read(out.join(MARKER))
+    let lock = Lock::acquire(&out.join(LOCK))?;
+    let earlier = std::fs::read(out.join(MARKER))
         .ok()
         .and_then(|text| serde_json::from_slice::<Value>(&text).ok());
-    if let Some(other) = marker
-        .as_ref()
-        .and_then(|m| m["results"][0]["name"].as_str())
-        .filter(|other| *other != name && !force)
-    {
-        bail!(
-            "{}: holds the run of the configuration '{other}'; choose another --out, or pass --force to replace it",
-            out.display()
-        );
+    let Some(earlier) = earlier else {
+        return Ok((lock, true));
+    };
+    let before = &earlier["results"][0];
+    let model = out.join("model.json");
+    let kept = model.exists() || path_for(&model).exists();
+    match difference(&before["config"], settings, "") {
+        None => Ok((lock, true)),
+        Some(_) if force || !kept => Ok((lock, false)),
+        Some(difference) => bail!(
+            "{}: holds the run of the configuration '{}', which is another ({difference}); choose another --out, or pass --force to replace it",
+            out.display(),
+            before["name"].as_str().unwrap_or("of an earlier version")
+        ),
     }
-    create_folder(out)?;
-    Ok(())
 }
 
-/// Takes away an earlier run's model, which does not belong to what comes; its dataset and exports are replaced file by file.
-fn clear(out: &Path, resume: bool) -> Result<(), FileError> {
+/// The first place at which two configurations differ, and how.
+fn difference(before: &Value, now: &Value, place: &str) -> Option<String> {
+    match (before, now) {
+        (Value::Object(a), Value::Object(b)) => {
+            let mut keys: Vec<&String> = a.keys().chain(b.keys()).collect();
+            keys.sort_unstable();
+            keys.dedup();
+            keys.into_iter().find_map(|key| {
+                let place = if place.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{place}.{key}")
+                };
+                difference(
+                    a.get(key).unwrap_or(&Value::Null),
+                    b.get(key).unwrap_or(&Value::Null),
+                    &place,
+                )
+            })
+        }
+        _ if before == now => None,
+        _ if place.is_empty() => Some("it does not say which".to_owned()),
+        _ => Some(format!("{place} was {before} and is {now}")),
+    }
+}
+
+/// Takes away what an earlier run left and what does not belong to what comes; the rest is replaced file by file, once
+/// there is something to replace it by.
+fn clear(out: &Path, resume: bool, same: bool) -> Result<(), FileError> {
     let checkpoint = (!resume).then_some("model.checkpoint.json");
-    for name in ["model.json", "model.losses.csv"].into_iter().chain(checkpoint) {
+    let finished = (!same).then_some(["model.json", "model.losses.csv"]);
+    for name in finished.into_iter().flatten().chain(checkpoint) {
         let path = out.join(name);
         match std::fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {

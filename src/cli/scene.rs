@@ -1,22 +1,23 @@
 //! `nmt scene`
 
 use super::ui::Ui;
-use super::{Verdict, keep_inputs};
+use super::{Verdict, keep_inputs, shown};
 use crate::numeric::file::{Replace, may_write};
 use crate::oit::Context;
-use crate::pixel::{CameraPlanes, FragmentList};
-use crate::scene::{self, BUILT_IN, Options, SceneError, SceneFile, exr, npz};
+use crate::pixel::{CameraPlanes, DepthWarning, FragmentList};
+use crate::scene::{self, BUILT_IN, Camera, Options, SceneError, SceneFile, exr, npz};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Args)]
 pub struct Scene {
-    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots; or a scene file (.toml), a fragment list
-    /// (.npz) or a deep image (.exr).
-    scene: String,
+    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots, splats; or a scene file (.toml), a mesh
+    /// (.obj, .gltf, .glb), Gaussian splats (.splat, .ply, .spz), a fragment list (.npz) or a deep image (.exr).
+    scene: OsString,
     /// Fragment list to write: .npz, or .exr for a deep image.
     #[arg(long, value_name = "F.npz")]
     out: PathBuf,
@@ -36,6 +37,9 @@ pub struct SceneOptions {
     /// Seed of a built-in scene.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// Part of a deep image, instead of the first deep one.
+    #[arg(long, value_name = "NAME|N")]
+    part: Option<String>,
 }
 
 /// How fragments are looked at: the camera that saw them, the range of depth, and what lies behind.
@@ -69,11 +73,11 @@ impl ViewOptions {
         })
     }
 
-    /// The colour, every channel of which lies in [0, 1].
+    /// The colour, every channel of which is 0 or more.
     pub fn background(&self) -> anyhow::Result<[f64; 3]> {
         let background = [self.background[0], self.background[1], self.background[2]];
-        match background.iter().find(|c| !(0.0..=1.0).contains(*c)) {
-            Some(wrong) => bail!("--background {wrong}: every channel must lie in [0, 1]"),
+        match background.iter().find(|c| !(0.0..f64::INFINITY).contains(*c)) {
+            Some(wrong) => bail!("--background {wrong}: every channel must be 0 or more, and finite"),
             None => Ok(background),
         }
     }
@@ -98,14 +102,18 @@ impl SceneOptions {
 }
 
 /// Whether a name is that of a file which holds fragments, and no scene.
-fn is_list(name: &str) -> bool {
-    let list = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
-    Path::new(name).extension().is_some_and(list) && !BUILT_IN.contains(&name)
+fn is_list(name: &OsStr) -> bool {
+    let list = |e: &OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
+    Path::new(name).extension().is_some_and(list) && !is_built_in(name)
+}
+
+fn is_built_in(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| BUILT_IN.contains(&name))
 }
 
 /// A scene whose camera can move.
 pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
-    if is_list(name) {
+    if is_list(OsStr::new(name)) {
         bail!(
             "{name}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene"
         );
@@ -113,15 +121,77 @@ pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
     Ok(scene::open(name)?)
 }
 
-/// The fragments of a scene by its name, or of a file.
-pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
+/// The fragments of a scene by its name, or of a file; what is left out or makes no sense is said.
+pub fn load(ui: &Ui, name: &(impl AsRef<OsStr> + ?Sized), options: &SceneOptions) -> anyhow::Result<FragmentList> {
+    let name = name.as_ref();
+    let path = Path::new(name);
     if is_list(name) {
         if options.size.is_some() || options.seed.is_some() {
-            bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
+            bail!(
+                "{}: --size and --seed are for scenes that are rendered, not for fragment lists",
+                path.display()
+            );
         }
-        return Ok(scene::read(Path::new(name))?);
+        return load_list(ui, path, options.part.as_deref());
     }
-    Ok(scene::build(&scene::open(name)?, &options.for_scene())?)
+    if options.part.is_some() {
+        bail!("{}: --part is for deep images (.exr)", path.display());
+    }
+    let scene = match name.to_str() {
+        Some(name) => scene::open(name)?,
+        None => match SceneFile::of_file(path) {
+            Some(scene) => scene,
+            None => SceneFile::read(path)?,
+        },
+    };
+    let (list, camera) = scene::build_with_camera(&scene, &options.for_scene())?;
+    if scene.camera.is_none() && !is_built_in(name) {
+        ui.warn(&placed(path, &camera));
+    }
+    ui.left_out(&list);
+    Ok(list)
+}
+
+/// A fragment list from a file; what is left out or makes no sense is said.
+pub fn load_list(ui: &Ui, path: &Path, part: Option<&str>) -> anyhow::Result<FragmentList> {
+    let list = scene::read_part(path, part)?;
+    ui.left_out(&list);
+    for warning in list.depth_warnings(None) {
+        // Against planes that the command line may replace, those that compute anything decide by themselves.
+        if !matches!(warning, DepthWarning::OutsidePlanes { .. }) {
+            ui.depth_warning(&shown(path), &warning);
+        }
+    }
+    Ok(list)
+}
+
+/// Refuses a list whose fragments lie outside the camera planes: some methods could not order them, and none should.
+pub fn refuse_outside(list: &FragmentList, planes: Option<CameraPlanes>) -> anyhow::Result<()> {
+    let warnings = list.depth_warnings(planes);
+    match warnings
+        .iter()
+        .find(|w| matches!(w, DepthWarning::OutsidePlanes { .. }))
+    {
+        Some(outside) => bail!("{outside}"),
+        None => Ok(()),
+    }
+}
+
+/// The camera that was chosen, as a scene file would give it.
+fn placed(path: &Path, camera: &Camera) -> String {
+    let Camera {
+        position, look_at, up, ..
+    } = camera;
+    format!(
+        "{}: no camera is given; it is seen by\n[camera]\nposition = {position:.4?}\nlook_at = {look_at:.4?}\nup = {up:?}\nvertical_fov = {}\n\
+         width = {}\nheight = {}\nnear = {}\nfar = {}",
+        path.display(),
+        camera.vertical_fov,
+        camera.width,
+        camera.height,
+        camera.near,
+        camera.far
+    )
 }
 
 impl Scene {
@@ -141,8 +211,15 @@ impl Scene {
             _ => return Err(SceneError::UnknownFormat { path: self.out }).context("--out"),
         };
         let start = Instant::now();
-        let list = load(&self.scene, &self.options)?;
+        let list = load(ui, &self.scene, &self.options)?;
         let seconds = start.elapsed().as_secs_f64();
+        for warning in list
+            .depth_warnings(None)
+            .iter()
+            .filter(|w| matches!(w, DepthWarning::OutsidePlanes { .. }))
+        {
+            ui.depth_warning(&shown(Path::new(&self.scene)), warning);
+        }
         if deep {
             exr::write(&self.out, replace, &list)?;
         } else {
@@ -153,7 +230,7 @@ impl Scene {
             ui.print_json(
                 "scene",
                 vec![json!({
-                    "scene": self.scene, "file": self.out, "pixels": list.pixels(), "width": width, "height": height, "fragments": list.len(),
+                    "scene": shown(Path::new(&self.scene)), "file": shown(&self.out), "pixels": list.pixels(), "width": width, "height": height, "fragments": list.len(),
                     "depth_complexity": list.depth_complexity(), "seconds": seconds,
                 })],
             )?;

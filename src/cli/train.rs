@@ -5,8 +5,8 @@ use super::ui::Ui;
 use super::{Verdict, generate, interrupt, keep_inputs};
 use crate::dataset::{Dataset, file as dataset_file};
 use crate::model::{Mlp, Provenance, file};
-use crate::numeric::file::{FileError, Replace, may_write, write_atomically};
-use crate::train::checkpoint::{Losses, path_for};
+use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
+use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
 use crate::train::{Backend, BackendError, Outcome, train};
 use anyhow::{Context, bail};
@@ -75,7 +75,8 @@ impl TryFrom<BackendName> for Backend {
 }
 
 impl TrainOptions {
-    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused before anything is made.
+    /// Reads the configuration with the number of epochs that is asked for; a backend that cannot be had is refused
+    /// before anything is made.
     pub fn configure(&self, path: &Path) -> anyhow::Result<Config> {
         Backend::try_from(self.backend)
             .and_then(Backend::adapter)
@@ -111,6 +112,8 @@ impl Train {
         let replace = if self.options.force { Replace::Yes } else { Replace::No };
         let config = self.options.configure(&self.config)?;
         keep_inputs(&[&self.config], &self.out)?;
+        // Before anything is looked at that another training may be about to write.
+        let _lock = Lock::acquire(&lock_path_for(&self.out))?;
         may_write(&self.out, replace)?;
         may_write(&losses_path(&self.out), replace)?;
         let checkpoint = path_for(&self.out);
@@ -203,8 +206,8 @@ impl Trained {
             "{}: best validation loss {:.3e} in epoch {} of {}, {:.1} s, {:.2} M samples/s{}\n",
             self.mlp.shape(),
             p.validation_loss.unwrap_or(f64::NAN),
-            p.best_epoch.unwrap_or(0),
-            p.epochs.unwrap_or(0),
+            p.best_epoch_text().unwrap_or_default(),
+            p.epochs_text().unwrap_or_default(),
             self.seconds,
             self.samples_per_second / 1e6,
             self.adapter

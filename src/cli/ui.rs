@@ -1,21 +1,34 @@
 //! What a person or a script sees: results on stdout, progress and warnings on stderr.
 
+use crate::pixel::{DepthWarning, FragmentList, LeftOut};
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
 use std::io::{IsTerminal, Write};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How to talk to the user.
 pub struct Ui {
     quiet: bool,
     json: bool,
+    notes: Arc<Mutex<Notes>>,
+}
+
+/// What was said about the input, for the report at the end.
+#[derive(Default)]
+struct Notes {
+    left_out: Vec<LeftOut>,
+    warnings: Vec<Value>,
 }
 
 impl Ui {
     pub fn new(quiet: bool, json: bool) -> Self {
-        Self { quiet, json }
+        Self {
+            quiet,
+            json,
+            notes: Arc::default(),
+        }
     }
 
     /// Whether results are wanted as JSON.
@@ -28,7 +41,60 @@ impl Ui {
         Self {
             quiet: self.quiet,
             json: false,
+            notes: Arc::clone(&self.notes),
         }
+    }
+
+    /// Says what the source of a list holds and the list does not.
+    pub fn left_out(&self, list: &FragmentList) {
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        for left_out in list
+            .left_out()
+            .iter()
+            .filter(|l| !notes.left_out.contains(l))
+            .cloned()
+            .collect::<Vec<_>>()
+        {
+            self.warn(&left_out.to_string());
+            notes.left_out.push(left_out);
+        }
+    }
+
+    /// Says what makes no sense about the depths of a list.
+    pub fn depth_warning(&self, name: &str, warning: &DepthWarning) {
+        self.warn(&format!("warning: {name}: {warning}"));
+        let mut value = serde_json::to_value(warning).expect("a warning is plain data");
+        if let Some(object) = value.as_object_mut() {
+            object.insert("where".to_owned(), name.into());
+            object.insert("message".to_owned(), warning.to_string().into());
+        }
+        self.notes
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .warnings
+            .push(value);
+    }
+
+    /// The object that `--json` prints.
+    pub fn report(&self, command: &str, results: Vec<Value>) -> Value {
+        let notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
+        json!({
+            "command": command, "version": env!("CARGO_PKG_VERSION"), "machine": machine(),
+            "left_out": notes.left_out, "warnings": notes.warnings, "results": results,
+        })
+    }
+
+    /// Prints an error as JSON, where that is how results are wanted.
+    pub fn print_error(&self, command: &str, message: &str) {
+        if !self.json {
+            return;
+        }
+        let mut report = self.report(command, Vec::new());
+        if let Some(object) = report.as_object_mut() {
+            object.insert("error".to_owned(), message.into());
+        }
+        // Where this fails too, standard error has the message.
+        drop(self.print(&format!("{report:#}\n")));
     }
 
     /// A warning or a note on stderr; nothing under `--quiet`.
@@ -63,7 +129,7 @@ impl Ui {
     pub fn print_json(&self, command: &str, results: Vec<Value>) -> anyhow::Result<()> {
         self.print(&format!(
             "{}\n",
-            serde_json::to_string_pretty(&report(command, results))?
+            serde_json::to_string_pretty(&self.report(command, results))?
         ))
     }
 
@@ -75,11 +141,6 @@ impl Ui {
             other => other.context("cannot write to standard output"),
         }
     }
-}
-
-/// The object that `--json` prints.
-pub fn report(command: &str, results: Vec<Value>) -> Value {
-    json!({ "command": command, "version": env!("CARGO_PKG_VERSION"), "machine": machine(), "results": results })
 }
 
 /// Progress of one piece of work.

@@ -362,7 +362,7 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
         known("commit", p.commit.clone()),
         known("backend", p.backend.clone()),
         known("seed", p.seed.map(|s| s.to_string())),
-        known("epochs", p.epochs.map(|e| e.to_string())),
+        known("epochs", p.epochs_text()),
         known("dataset", p.dataset_hash.clone()),
     ]
     .into_iter()
@@ -376,12 +376,8 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
             origin.join(", ")
         }
     ));
-    lines.push(match (p.transmittance_mse, p.transmittance_worst_error) {
-        (Some(mse), Some(worst)) => {
-            format!("Measured on fresh pixels of the training distribution: mean squared error of T {mse:.3e}, worst {worst:.3}.")
-        }
-        _ => "Measured error: none recorded; 'nmt predict' measures it on fragment lists.".to_owned(),
-    });
+    let unknown = "Measured error: none recorded; 'nmt predict' measures it on fragment lists.";
+    lines.push(p.measured_text().unwrap_or_else(|| unknown.to_owned()));
     lines
 }
 

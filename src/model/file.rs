@@ -2,7 +2,7 @@
 
 use super::{Dense, Mlp, Provenance, ShapeError};
 use crate::features::{FeatureSet, MomentDepthKind, OutputMeaning};
-use crate::numeric::file::{FileError, Replace, read, write_atomically};
+use crate::numeric::file::{FileError, Replace, read, without_mark, write_atomically};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -137,6 +137,7 @@ pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
         path: path.to_owned(),
         reason,
     };
+    let text = without_mark(text);
     let head: serde_json::Value = serde_json::from_slice(text).map_err(|e| not(e.to_string()))?;
     if head.get("format").and_then(|f| f.as_str()) != Some(FORMAT) {
         return Err(not(format!(
@@ -231,7 +232,7 @@ pub fn import(path: &Path, name: &str, feature_set: FeatureSet) -> Result<Mlp, M
         path: path.to_owned(),
         reason,
     };
-    let foreign: Foreign = serde_json::from_slice(&read(path)?).map_err(|e| ModelError::NotAModel {
+    let foreign: Foreign = serde_json::from_slice(without_mark(&read(path)?)).map_err(|e| ModelError::NotAModel {
         path: path.to_owned(),
         reason: e.to_string(),
     })?;

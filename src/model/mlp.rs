@@ -168,7 +168,41 @@ pub fn check_name(name: &str) -> Result<(), ShapeError> {
     }
 }
 
+/// The name of a network that a file is to hold: the file's own without its ending, other characters than a name may
+/// have replaced by "-".
+pub fn name_for(path: &std::path::Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let name: String = stem
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() || "-_.".contains(c) {
+                c
+            } else {
+                '-'
+            }
+        })
+        .take(64)
+        .collect();
+    let name = name.trim_start_matches('.');
+    if name.is_empty() {
+        "network".to_owned()
+    } else {
+        name.to_owned()
+    }
+}
+
 impl Mlp {
+    /// The same network under another name.
+    ///
+    /// # Errors
+    /// [`ShapeError::Name`].
+    pub fn renamed(mut self, name: impl Into<String>) -> Result<Self, ShapeError> {
+        let name = name.into();
+        check_name(&name)?;
+        self.name = name;
+        Ok(self)
+    }
+
     /// A network from its layers.
     ///
     /// # Errors

@@ -1,7 +1,10 @@
 //! Writing files so that a failure never leaves half of one, nor harms what stood there.
 
-use std::io::{self, BufWriter, Write};
+use std::collections::BTreeSet;
+use std::fs::{File, TryLockError};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 /// Why a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +20,14 @@ pub enum FileError {
     NotRegular {
         /// What stands there.
         path: PathBuf,
+    },
+    /// Another process works at this place.
+    #[error("{}: another nmt ({holder}) is writing here; wait for it to end, or choose another place", path.display())]
+    Locked {
+        /// The lock file.
+        path: PathBuf,
+        /// What it says of the other process.
+        holder: String,
     },
     /// The operating system refused.
     #[error("{}: {action}: {source}", path.display())]
@@ -56,6 +67,145 @@ pub fn may_write(path: &Path, replace: Replace) -> Result<(), FileError> {
         return Err(FileError::Exists { path: path.to_owned() });
     }
     Ok(())
+}
+
+/// Files that must not outlive the process: temporary ones, and locks.
+static TRANSIENT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// A file that is removed at the latest when the process ends in an orderly way, [`remove_transient_files`] included.
+#[derive(Debug)]
+struct Transient(PathBuf);
+
+impl Transient {
+    fn new(path: &Path) -> Self {
+        TRANSIENT
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(path.to_owned());
+        Self(path.to_owned())
+    }
+}
+
+impl Drop for Transient {
+    fn drop(&mut self) {
+        TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.0);
+    }
+}
+
+/// Removes temporary files and locks; for a process that is about to end without returning to those that made them.
+pub fn remove_transient_files() {
+    for path in TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        // Nothing can be done about one that will not go.
+        drop(std::fs::remove_file(path));
+    }
+}
+
+/// The beginning of a temporary file's name.
+const TEMPORARY: &str = ".nmt-";
+
+/// Removes temporary files that processes left which were killed; only where no other process can be writing.
+///
+/// # Errors
+/// [`FileError::Io`] for one that cannot be removed.
+pub fn remove_stale_files(folder: &Path) -> Result<(), FileError> {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return Ok(());
+    };
+    for entry in entries
+        .flatten()
+        .filter(|e| e.file_name().to_string_lossy().starts_with(TEMPORARY))
+    {
+        let path = entry.path();
+        std::fs::remove_file(&path)
+            .map_err(FileError::io(&path, "cannot remove a temporary file of an earlier run"))?;
+    }
+    Ok(())
+}
+
+/// A place that this process alone may write at, for as long as this lives.
+///
+/// The operating system gives it back when the process ends, however that comes about.
+#[derive(Debug)]
+pub struct Lock {
+    file: File,
+    transient: Transient,
+}
+
+impl Lock {
+    /// Takes the lock file at `path`.
+    ///
+    /// # Errors
+    /// [`FileError::Locked`] where another process has it, [`FileError::Io`] where it cannot be made.
+    pub fn acquire(path: &Path) -> Result<Self, FileError> {
+        if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
+            create_folder(folder)?;
+        }
+        let cannot = "cannot make the lock file; is the folder read-only?";
+        loop {
+            let mut file = File::options()
+                .read(true)
+                .write(true)
+                .create(true)
+                .truncate(false)
+                .open(path)
+                .map_err(FileError::io(path, cannot))?;
+            match file.try_lock() {
+                Ok(()) => {}
+                Err(TryLockError::WouldBlock) => {
+                    let mut holder = String::new();
+                    drop(file.read_to_string(&mut holder));
+                    let holder = if holder.trim().is_empty() {
+                        "that has just begun"
+                    } else {
+                        holder.trim()
+                    };
+                    return Err(FileError::Locked {
+                        path: path.to_owned(),
+                        holder: holder.to_owned(),
+                    });
+                }
+                // A file system without locks has none to respect.
+                Err(TryLockError::Error(e)) if e.kind() == io::ErrorKind::Unsupported => {}
+                Err(TryLockError::Error(e)) => return Err(FileError::io(path, cannot)(e)),
+            }
+            if !is_at(&file, path) {
+                // Its holder removed it meanwhile; the next one is another file.
+                continue;
+            }
+            let written = file
+                .set_len(0)
+                .and_then(|()| write!(file, "process {}", std::process::id()));
+            written.map_err(FileError::io(path, cannot))?;
+            return Ok(Self {
+                file,
+                transient: Transient::new(path),
+            });
+        }
+    }
+}
+
+/// Whether an open file is the one that stands at a path.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), std::fs::metadata(path)) {
+        (Ok(a), Ok(b)) => (a.dev(), a.ino()) == (b.dev(), b.ino()),
+        _ => false,
+    }
+}
+
+/// Elsewhere, a file that is open cannot be removed.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // While it is held, so that nobody takes what is about to go.
+        drop(std::fs::remove_file(&self.transient.0));
+        drop(self.file.unlock());
+    }
 }
 
 /// Creates the folder and its parents.
@@ -98,9 +248,10 @@ pub fn write_atomically(
     create_folder(folder)?;
     let cannot = "cannot write; is the folder read-only or the disk full?";
     let mut temporary = tempfile::Builder::new()
-        .prefix(".nmt-")
+        .prefix(TEMPORARY)
         .tempfile_in(folder)
         .map_err(FileError::io(path, cannot))?;
+    let _transient = Transient::new(temporary.path());
     let whole = (|| {
         let mut buffered = BufWriter::new(temporary.as_file_mut());
         write(&mut buffered)?;
@@ -155,6 +306,11 @@ fn default_mode() -> u32 {
     })
 }
 
+/// Text without the byte order mark that some editors put before UTF-8.
+pub fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text)
+}
+
 /// Reads a whole file.
 ///
 /// # Errors
@@ -166,6 +322,27 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Within one process locks are of files as opened, so that a second one is refused as another process's would be.
+    #[test]
+    fn a_place_is_taken_once_and_free_afterwards() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("new/a.lock");
+        let lock = Lock::acquire(&path).unwrap();
+        let refused = Lock::acquire(&path).unwrap_err().to_string();
+        assert!(
+            refused.contains(&format!("process {}", std::process::id())),
+            "{refused}"
+        );
+        drop(lock);
+        assert!(!path.exists());
+        // A process that was killed leaves the file, and nothing holds it.
+        std::fs::write(&path, "process 1").unwrap();
+        drop(Lock::acquire(&path).unwrap());
+        std::fs::write(folder.path().join(".nmt-abc"), "half").unwrap();
+        remove_stale_files(folder.path()).unwrap();
+        assert!(!folder.path().join(".nmt-abc").exists());
+    }
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_no_other() {

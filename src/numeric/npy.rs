@@ -5,7 +5,7 @@ use super::file::{FileError, Replace, write_atomically};
 use ndarray::{ArrayD, ArrayView, ArrayViewD, Dimension};
 use ndarray_npy::{ViewElement, ViewNpyError, ViewNpyExt, WritableElement, WriteNpyExt};
 use std::collections::BTreeMap;
-use std::io::{Cursor, Read};
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Greatest size of one array that is read \[bytes\].
@@ -72,6 +72,79 @@ impl Element for i32 {
 impl Element for i64 {
     const NAME: &'static str = "int64";
 }
+impl Element for u8 {
+    const NAME: &'static str = "uint8";
+}
+impl Element for i8 {
+    const NAME: &'static str = "int8";
+}
+impl Element for u16 {
+    const NAME: &'static str = "uint16";
+}
+impl Element for i16 {
+    const NAME: &'static str = "int16";
+}
+
+/// The type of a file's elements as its header writes it, `<f4` for example; none where no header can be read.
+fn kind(bytes: &[u8]) -> Option<String> {
+    let start = match bytes.get(6)? {
+        1 => 10,
+        _ => 12,
+    };
+    let header = String::from_utf8_lossy(bytes.get(start..bytes.len().min(start + 4096))?).into_owned();
+    let after = header.split_once("'descr'")?.1.split_once(['\'', '[', '\n'])?;
+    let name: String = after
+        .1
+        .chars()
+        .take_while(|c| c.is_ascii_alphanumeric() || "<>|=".contains(*c))
+        .collect();
+    (!name.is_empty()).then(|| name.replace('=', "<"))
+}
+
+/// NumPy's name of a type that a header writes as `<f4`; what it writes where that is not known.
+fn name_of(kind: &str) -> String {
+    let name = match kind.trim_start_matches(['<', '>', '|']) {
+        "f2" => "float16",
+        "f4" => "float32",
+        "f8" => "float64",
+        "u1" => "uint8",
+        "u2" => "uint16",
+        "u4" => "uint32",
+        "u8" => "uint64",
+        "i1" => "int8",
+        "i2" => "int16",
+        "i4" => "int32",
+        "i8" => "int64",
+        "b1" => "bool",
+        _ => return format!("of type {kind}"),
+    };
+    if kind.starts_with('>') {
+        format!("big-endian {name}")
+    } else {
+        name.to_owned()
+    }
+}
+
+/// What is wrong with an array's type, and how to write it in another.
+fn other_type<T: Element>(array: &str, bytes: &[u8]) -> Option<String> {
+    let kind = kind(bytes)?;
+    let name = name_of(&kind);
+    if name == T::NAME {
+        return None;
+    }
+    let bytes_of_color = array == "color" && matches!(kind.as_str(), "|u1" | "<u2" | ">u2");
+    let convert = match T::NAME {
+        "float32" if kind.starts_with('>') => ".astype('<f4')".to_owned(),
+        name => format!(".astype(np.{name})"),
+    };
+    Some(match bytes_of_color {
+        true => format!(
+            "it is {name}; divide it by {}, make it linear and write {convert}",
+            if kind == "|u1" { 255 } else { 65535 }
+        ),
+        false => format!("it is {name}; write {convert}"),
+    })
+}
 
 /// Whether a header is as long as it says. The reader would take memory for it first and find out afterwards.
 fn header_is_whole(bytes: &[u8]) -> bool {
@@ -125,7 +198,7 @@ fn array_error<T: Element>(path: &Path, name: &str, reason: String) -> NpyError 
 /// [`NpyError`] names the file and what is wrong with it.
 pub fn read_npy<T: Element>(path: &Path) -> Result<ArrayD<T>, NpyError> {
     let bytes = super::file::read(path)?;
-    decode(&bytes).map_err(|e| array_error::<T>(path, "array", e))
+    decode(&bytes).map_err(|e| array_error::<T>(path, "array", other_type::<T>("array", &bytes).unwrap_or(e)))
 }
 
 /// Writes one `.npy` file.
@@ -206,7 +279,17 @@ impl Npz {
         };
         decode(bytes)
             .map(Some)
-            .map_err(|e| array_error::<T>(&self.path, name, e))
+            .map_err(|e| array_error::<T>(&self.path, name, other_type::<T>(name, bytes).unwrap_or(e)))
+    }
+
+    /// The type of an array's elements as its header writes it, `<f4` for example; none where the array is not there.
+    pub fn kind(&self, name: &str) -> Option<String> {
+        Some(kind(self.entries.get(name)?).unwrap_or_default())
+    }
+
+    /// Names of all arrays.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.keys().map(String::as_str)
     }
 
     /// An array that must be there.
@@ -235,26 +318,79 @@ impl Npz {
     }
 }
 
+/// An array on its way into an archive.
+pub enum Entry<'a> {
+    /// The bytes of a `.npy` file, see [`encode`].
+    Encoded(Vec<u8>),
+    /// What writes them, so that they need not be in memory.
+    Streamed {
+        /// About how many they are; archives are told beforehand of files beyond 2 GiB.
+        bytes: u64,
+        /// Writes them.
+        #[expect(clippy::type_complexity)]
+        write: Box<dyn Fn(&mut dyn Write) -> std::io::Result<()> + 'a>,
+    },
+}
+
+impl<'a> Entry<'a> {
+    /// An array that is encoded as it is written.
+    pub fn streamed<T: Element, D: Dimension + 'a>(array: ArrayView<'a, T, D>) -> Self {
+        Self::Streamed {
+            bytes: (array.len() * size_of::<T>()) as u64 + 128,
+            write: Box::new(move |w| array.write_npy(w).map_err(std::io::Error::other)),
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match self {
+            Self::Encoded(bytes) => bytes.len() as u64,
+            Self::Streamed { bytes, .. } => *bytes,
+        }
+    }
+
+    fn write(&self, w: &mut dyn Write) -> std::io::Result<()> {
+        match self {
+            Self::Encoded(bytes) => w.write_all(bytes),
+            Self::Streamed { write, .. } => write(w),
+        }
+    }
+}
+
 /// Writes an `.npz` archive of already encoded arrays ([`encode`]), stored without compression and without time stamps:
 /// the same arrays give the same bytes.
 ///
 /// # Errors
 /// [`FileError`]; nothing half-written is left.
 pub fn write_npz(path: &Path, replace: Replace, arrays: &[(&str, Vec<u8>)]) -> Result<(), FileError> {
-    use std::io::Write;
+    let entries = arrays
+        .iter()
+        .map(|(name, bytes)| (*name, Entry::Encoded(bytes.clone())));
+    write_npz_of(path, replace, &entries.collect::<Vec<_>>())
+}
+
+/// As [`write_npz`], of arrays that need not be encoded before.
+///
+/// # Errors
+/// [`FileError`]; nothing half-written is left.
+pub fn write_npz_of(path: &Path, replace: Replace, arrays: &[(&str, Entry<'_>)]) -> Result<(), FileError> {
     use zip::write::SimpleFileOptions;
     write_atomically(path, replace, |w| {
         let mut archive = zip::ZipWriter::new(w);
-        for (name, bytes) in arrays {
+        for (name, entry) in arrays {
             let options = SimpleFileOptions::default()
                 .compression_method(zip::CompressionMethod::Stored)
                 .last_modified_time(zip::DateTime::default())
-                .large_file(bytes.len() as u64 > u64::from(u32::MAX) / 2);
-            archive.start_file(format!("{name}.npy"), options)?;
-            archive.write_all(bytes)?;
+                .large_file(entry.bytes() > u64::from(u32::MAX) / 2);
+            let started = archive
+                .start_file(format!("{name}.npy"), options)
+                .map_err(std::io::Error::from);
+            if let Err(error) = started.and_then(|()| entry.write(&mut archive)) {
+                // Dropped, an archive would try to finish itself and report that this fails too.
+                std::mem::forget(archive);
+                return Err(error);
+            }
         }
-        archive.finish()?;
-        Ok(())
+        archive.finish().map(drop).map_err(std::io::Error::from)
     })
 }
 
@@ -309,6 +445,27 @@ mod tests {
             let read = Npz::read(&path, &["x"]).and_then(|npz| npz.required::<f32>("x"));
             assert!(read.is_err(), "{length} of {} bytes were read as whole", whole.len());
         }
+    }
+
+    #[test]
+    fn other_types_are_named_with_their_remedy() {
+        let doubles = encode(arr1(&[1.0f64]).view());
+        let big = doubles
+            .iter()
+            .map(|&b| if b == b'<' { b'>' } else { b })
+            .collect::<Vec<_>>();
+        assert_eq!(
+            other_type::<f32>("alpha", &doubles).unwrap(),
+            "it is float64; write .astype(np.float32)"
+        );
+        assert_eq!(
+            other_type::<f32>("alpha", &big).unwrap(),
+            "it is big-endian float64; write .astype('<f4')"
+        );
+        assert_eq!(other_type::<f64>("alpha", &doubles), None);
+        let bytes = encode(arr1(&[1u8]).view());
+        assert!(other_type::<f32>("color", &bytes).unwrap().contains("divide it by 255"));
+        assert!(kind(&doubles[..12]).is_none() && kind(b"").is_none());
     }
 
     /// A header that promises 2^60 elements over 4 bytes of data.

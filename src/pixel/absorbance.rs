@@ -4,7 +4,8 @@ use crate::numeric::lanes;
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
-/// Greatest absorbance of one fragment \[dimensionless\]; an opaque fragment leaves e^−10 of the light (the usual clamp of shipped renderers).
+/// Greatest absorbance of one fragment \[dimensionless\]; an opaque fragment leaves e^−10 of the light (the usual clamp
+/// of shipped renderers).
 pub const ABSORBANCE_MAX: f64 = 10.0;
 
 /// Absorbance of a fragment: A = min(−ln(1 − alpha), 10).

@@ -248,7 +248,8 @@ mod tests {
         assert!(warp.moment(ViewZ(8.0)).0.abs() < 1e-15);
     }
 
-    /// Eight at once and one by one: the same bits, at every place between the ends. Control: another warp, other planes.
+    /// Eight at once and one by one: the same bits, at every place between the ends. Control: another warp, other
+    /// planes.
     #[test]
     fn doubles_follow_the_scalar() {
         use fearless_simd::{Level, dispatch};
@@ -273,7 +274,8 @@ mod tests {
     }
 
     proptest! {
-        /// Tolerance: view_z kept as f32 (relative 6e-8) between near 0.1 and far 100 moves window depth by less than 1e-7.
+        /// Tolerance: view_z kept as f32 (relative 6e-8) between near 0.1 and far 100 moves window depth by less than
+        /// 1e-7.
         #[test]
         fn window_depth_survives_the_f32_view_depth_of_a_file(w in 0.0f64..=1.0) {
             let planes = CameraPlanes::new(0.1, 100.0).unwrap();

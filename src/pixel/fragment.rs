@@ -1,5 +1,6 @@
 //! Fragments and lists of them.
 
+use super::left_out::{LeftOut, note};
 use super::{CameraPlanes, DepthError};
 use rayon::prelude::*;
 
@@ -10,7 +11,7 @@ pub struct Fragment {
     pub view_z: f32,
     /// Opacity, in [0, 1].
     pub alpha: f32,
-    /// Linear colour, each channel in [0, 1]; not premultiplied.
+    /// Linear colour, each channel in [0, ∞) and finite; not premultiplied.
     pub color: [f32; 3],
 }
 
@@ -39,15 +40,48 @@ impl Pixel<'_> {
 
 /// The fragments of many pixels, as compressed sparse rows: pixel p holds fragments `offsets[p]..offsets[p + 1]`.
 ///
-/// A list that exists is valid: every constructor checks what [`FragmentList::new`] documents.
-#[derive(Debug, Clone, PartialEq)]
+/// A list that exists is valid: every constructor checks what [`FragmentList::new`] documents. Lists are equal where
+/// their pixels are, whatever was left out of either.
+#[derive(Debug, Clone)]
 pub struct FragmentList {
     offsets: Vec<u64>,
     view_z: Vec<f32>,
     alpha: Vec<f32>,
     color: Option<Vec<[f32; 3]>>,
     size: Option<(u32, u32)>,
+    windows: Option<Windows>,
     planes: Option<CameraPlanes>,
+    left_out: Vec<LeftOut>,
+}
+
+impl PartialEq for FragmentList {
+    fn eq(&self, other: &Self) -> bool {
+        self.offsets == other.offsets
+            && self.view_z == other.view_z
+            && self.alpha == other.alpha
+            && self.color == other.color
+            && self.size == other.size
+            && self.windows == other.windows
+            && self.planes == other.planes
+    }
+}
+
+/// Where an image lies in the plane of its camera, as OpenEXR says it: x_min, y_min, x_max, y_max, both ends included
+/// \[pixels\].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Windows {
+    /// The pixels that the list holds.
+    pub data: [i32; 4],
+    /// The pixels that the camera shows.
+    pub display: [i32; 4],
+}
+
+impl Windows {
+    /// Columns and rows of a window; none where it is empty or too large to count.
+    pub fn size_of([x0, y0, x1, y1]: [i32; 4]) -> Option<(u32, u32)> {
+        let side = |lo: i32, hi: i32| u32::try_from(i64::from(hi) - i64::from(lo) + 1).ok().filter(|n| *n > 0);
+        Some((side(x0, x1)?, side(y0, y1)?))
+    }
 }
 
 /// What is wrong with a fragment list, and where.
@@ -107,8 +141,8 @@ pub enum FragmentError {
         /// Its value.
         value: f32,
     },
-    /// A colour is outside [0, 1].
-    #[error("color[{index}] = {value:?} (pixel {pixel}); every channel must lie in [0, 1]")]
+    /// A colour is negative or not finite.
+    #[error("color[{index}] = {value:?} (pixel {pixel}); every channel must be 0 or more, and finite")]
     Color {
         /// Fragment.
         index: usize,
@@ -127,6 +161,16 @@ pub enum FragmentError {
         /// Number of pixels.
         pixels: usize,
     },
+    /// The data window is not of the image's size, or the display window is empty.
+    #[error(
+        "data window {data:?}, display window {display:?}; the first must have as many columns and rows as the image, the second at least one"
+    )]
+    Windows {
+        /// x_min, y_min, x_max, y_max.
+        data: [i32; 4],
+        /// x_min, y_min, x_max, y_max.
+        display: [i32; 4],
+    },
     /// The camera planes are invalid.
     #[error(transparent)]
     Planes(#[from] DepthError),
@@ -139,8 +183,8 @@ impl FragmentList {
     /// `offsets: [P + 1]`, `view_z: [F]`, `alpha: [F]`, `color: [F]`.
     ///
     /// # Domain
-    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha and colour channels in [0, 1]. Empty pixels, a list
-    /// without fragments, ties and alpha 0 or 1 are valid.
+    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha in [0, 1]; colour channels in [0, ∞).
+    /// Empty pixels, a list without fragments, ties and alpha 0 or 1 are valid.
     ///
     /// # Errors
     /// [`FragmentError`] names the first entry that is out of its domain.
@@ -192,7 +236,9 @@ impl FragmentList {
             });
         }
         if let Some(color) = &color
-            && let Some(index) = color.iter().position(|c| c.iter().any(|x| !(0.0..=1.0).contains(x)))
+            && let Some(index) = color
+                .iter()
+                .position(|c| c.iter().any(|x| !(0.0..f32::INFINITY).contains(x)))
         {
             return Err(FragmentError::Color {
                 index,
@@ -206,7 +252,9 @@ impl FragmentList {
             alpha,
             color,
             size: None,
+            windows: None,
             planes: None,
+            left_out: Vec::new(),
         })
     }
 
@@ -221,6 +269,25 @@ impl FragmentList {
         }
         self.size = Some((width, height));
         Ok(self)
+    }
+
+    /// The same list with its place in the plane of the camera.
+    ///
+    /// # Errors
+    /// [`FragmentError::Windows`] unless the data window has the image's size and the display window a pixel.
+    pub fn with_windows(mut self, windows: Windows) -> Result<Self, FragmentError> {
+        let Windows { data, display } = windows;
+        if self.size.is_none() || Windows::size_of(data) != self.size || Windows::size_of(display).is_none() {
+            return Err(FragmentError::Windows { data, display });
+        }
+        self.windows = Some(windows);
+        Ok(self)
+    }
+
+    /// The same list with more that its source holds and it does not.
+    pub fn with_left_out(mut self, left_out: impl IntoIterator<Item = LeftOut>) -> Self {
+        left_out.into_iter().for_each(|l| note(&mut self.left_out, l));
+        self
     }
 
     /// The same list with the planes of the camera that saw it.
@@ -250,8 +317,11 @@ impl FragmentList {
                 .zip(other.color.as_ref())
                 .map(|(a, b)| [a.as_slice(), b].concat()),
             size: None,
+            windows: None,
             planes: self.planes,
+            left_out: self.left_out.clone(),
         }
+        .with_left_out(other.left_out.iter().cloned())
     }
 
     /// Number of pixels, P.
@@ -290,8 +360,8 @@ impl FragmentList {
         }
     }
 
-    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of an array that holds `width`
-    /// values for every fragment of the range, in the order of the list.
+    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of
+    /// an array that holds `width` values for every fragment of the range, in the order of the list.
     ///
     /// # Errors
     /// The first error of `f`, whichever thread meets it.
@@ -346,6 +416,22 @@ impl FragmentList {
         self.size
     }
 
+    /// Where the image lies in the plane of its camera, where that is known and the list is an image.
+    pub fn windows(&self) -> Option<Windows> {
+        self.windows
+    }
+
+    /// What the source of this list holds and the list does not.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
+    }
+
+    /// The greatest value of any colour channel, at least 1; what bounds of images scale with.
+    pub fn brightest(&self) -> f32 {
+        let channels = self.color.iter().flatten().flatten();
+        channels.fold(1.0, |brightest, &c| brightest.max(c))
+    }
+
     /// The camera's planes where they are known.
     pub fn planes(&self) -> Option<CameraPlanes> {
         self.planes
@@ -361,17 +447,28 @@ impl FragmentList {
     }
 
     /// Least and greatest view depth of the whole list; none where it has no fragment.
+    ///
+    /// Fragments of alpha 0 have no part in it, unless there are no others: where a ray missed, many programs write a
+    /// depth of no meaning.
     pub fn depth_range(&self) -> Option<(f32, f32)> {
-        let first = *self.view_z.first()?;
-        Some(
-            self.view_z
+        // Branch-free, so that the loop runs on SIMD lanes; depths are finite and positive.
+        let range = |keep: fn(f32) -> bool| {
+            let ends = self
+                .view_z
                 .iter()
-                .fold((first, first), |(lo, hi), &v| (lo.min(v), hi.max(v))),
-        )
+                .zip(&self.alpha)
+                .fold((f32::INFINITY, 0.0f32), |(lo, hi), (&v, &a)| {
+                    let (low, high) = if keep(a) { (v, v) } else { (f32::INFINITY, 0.0) };
+                    (lo.min(low), hi.max(high))
+                });
+            (ends.0 <= ends.1).then_some(ends)
+        };
+        range(|a| a > 0.0).or_else(|| range(|_| true))
     }
 }
 
-/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop runs on SIMD lanes.
+/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop
+/// runs on SIMD lanes.
 fn first_outside(values: &[f32], domain: impl Fn(f32) -> bool) -> Option<usize> {
     const CHUNK: usize = 1024;
     let chunk = values
@@ -396,6 +493,12 @@ mod tests {
         assert_eq!((ties.pixels(), ties.len(), ties.depth_complexity()), (3, 3, 2));
         assert_eq!(ties.range(1), 0..2);
         assert_eq!(ties.depth_range(), Some((1.0, 2.0)));
+        let misses = list(&[0, 3], &[1e30, 2.0, 3.0], &[0.0, 1.0, 0.5]).unwrap();
+        assert_eq!(misses.depth_range(), Some((2.0, 3.0)));
+        assert_eq!(
+            list(&[0, 1], &[1e30], &[0.0]).unwrap().depth_range(),
+            Some((1e30, 1e30))
+        );
         let twice = ties.followed_by(&ties);
         assert_eq!(
             (twice.pixels(), twice.len(), twice.range(4), twice.range(5)),
@@ -436,8 +539,10 @@ mod tests {
             let message = result.unwrap_err().to_string();
             assert!(message.contains(part), "{message}");
         }
-        let color = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], Some(vec![[0.0, 2.0, 0.0]]));
+        let color = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], Some(vec![[0.0, -2.0, 0.0]]));
         assert!(color.unwrap_err().to_string().contains("color[0]"));
+        let bright = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], Some(vec![[0.0, 2.0, 0.0]])).unwrap();
+        assert_eq!(bright.brightest(), 2.0);
         assert!(list(&[0, 0, 0], &[], &[]).unwrap().with_size(3, 1).is_err());
     }
 }

@@ -579,6 +579,13 @@ pub fn specialise(
     let provenance = &mut mlp_after.provenance;
     (provenance.training_loss, provenance.validation_loss) = (None, None);
     (provenance.transmittance_mse, provenance.transmittance_worst_error) = (None, None);
+    (provenance.epochs, provenance.best_epoch) = (None, None);
+    provenance.source = format!(
+        "nmt {}, retrained on one scene from '{}'",
+        env!("CARGO_PKG_VERSION"),
+        mlp.name()
+    );
+    provenance.seed = Some(plan.seed);
     Ok(Specialised {
         mlp: mlp_after,
         target_error,

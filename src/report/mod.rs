@@ -9,6 +9,7 @@ mod errors;
 mod find;
 mod html;
 mod images;
+mod left_out;
 mod profile;
 mod provenance;
 mod scenes;
@@ -205,10 +206,14 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
             problems,
         });
     }
-    let present: Vec<(&str, &'static str, &str)> = sections
+    let mut present: Vec<(&str, &'static str, &str)> = sections
         .iter()
         .filter_map(|s| Some((s.id, s.title, s.html.as_deref()?)))
         .collect();
+    let left_out = left_out::section(&found);
+    if let Some(html) = &left_out {
+        present.push(("left-out", "What is left out", html));
+    }
     let html = page(folder, &present, &missing, &found, &summary::section(&found, &scenes));
     Ok(Page {
         html,

@@ -4,6 +4,7 @@ use super::find::{Document, Found};
 use super::html::{definitions, escape, number, thousands};
 use super::value::{number as number_of, text};
 use crate::chart::{self, Axis, Chart, Mark, Point, Scale, Series};
+use crate::model::Provenance;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -104,11 +105,11 @@ fn facts(model: &Document, p: &Value, name: &str) -> Vec<(&'static str, String)>
     ] {
         facts.extend(number_of(p, &[key]).map(|x| (label, number(x))));
     }
-    if let (Some(best), Some(epochs)) = (number_of(p, &["best_epoch"]), number_of(p, &["epochs"])) {
-        facts.push((
-            "best epoch",
-            format!("{} of {}", thousands(best as i64), thousands(epochs as i64)),
-        ));
+    if let Ok(p) = serde_json::from_value::<Provenance>(p.clone())
+        && let (Some(best), Some(epochs)) = (p.best_epoch_text(), p.epochs_text())
+    {
+        let joined = if best.contains(' ') { ", all in all" } else { " of" };
+        facts.push(("best epoch", format!("{best}{joined} {epochs}")));
     }
     facts.extend(text(p, &["backend"]).map(|t| ("trained by", t.to_owned())));
     facts

@@ -1,4 +1,7 @@
-//! Fragment lists from scenes: meshes and built-in scenes seen through a camera, and files of other renderers.
+//! Fragment lists from scenes: meshes, Gaussian splats and built-in scenes seen through a camera, and files of other
+//! renderers.
+//!
+//! What a file holds is read, refused with an error, or named in [`FragmentList::left_out`].
 
 pub mod camera;
 pub mod exr;
@@ -8,9 +11,11 @@ pub mod npz;
 pub mod path;
 mod procedural;
 mod raster;
+pub mod splat;
+mod texture;
 
 pub use camera::Camera;
-pub use file::{MaterialOverride, MeshEntry, SceneFile};
+pub use file::{MaterialOverride, MeshEntry, SceneFile, SplatEntry};
 pub use path::CameraPath;
 pub use raster::{Geometry, Particle, Triangle, Vertex};
 
@@ -21,7 +26,7 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 7] = [
+pub const BUILT_IN: [&str; 8] = [
     "glass-stacks",
     "smoke",
     "hair",
@@ -29,6 +34,7 @@ pub const BUILT_IN: [&str; 7] = [
     "spheres",
     "sphere-cluster",
     "teapots",
+    "splats",
 ];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
@@ -133,7 +139,7 @@ impl SceneError {
     }
 }
 
-/// A scene by its name: a built-in one, or else a scene file's path.
+/// A scene by its name: a built-in one, or else the path of a scene file, of a mesh or of a file of splats.
 ///
 /// # Errors
 /// [`SceneError`] names what is wrong, and where; for a name that is neither, the built-in scenes.
@@ -145,33 +151,65 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
     if path.extension().is_none() && !path.exists() {
         return Err(SceneError::UnknownBuiltIn { name: name.to_owned() });
     }
-    SceneFile::read(path)
+    match SceneFile::of_file(path) {
+        Some(scene) => Ok(scene),
+        None => SceneFile::read(path),
+    }
 }
 
 /// The fragments of a scene, with colours, image size and camera planes.
 ///
 /// The result depends on the scene and the options alone, not on the number of threads.
-/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its pixel is left out.
+/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its
+/// pixel is left out.
 ///
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
 pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
+    Ok(scene.build(options)?.0)
+}
+
+/// As [`build`], with the camera that saw them, which is placed for the content where the scene file gives none.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with_camera(scene: &SceneFile, options: &Options) -> Result<(FragmentList, Camera), SceneError> {
     scene.build(options)
 }
 
-/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image.
+/// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep
+/// part is read.
 ///
 /// # Errors
 /// [`SceneError`] names the file, the place in it and what is expected there.
 pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
+    read_part(path, None)
+}
+
+/// As [`read`], with the name or number of a deep image's part.
+///
+/// # Errors
+/// As [`read`]; an archive has no parts.
+pub fn read_part(path: &Path, part: Option<&str>) -> Result<FragmentList, SceneError> {
     match path
         .extension()
         .and_then(|e| e.to_str())
         .map(str::to_ascii_lowercase)
         .as_deref()
     {
+        Some("npz") if part.is_some() => Err(SceneError::file_content(
+            path,
+            "name",
+            "an archive has no parts; only deep images (.exr) do",
+        )),
         Some("npz") => npz::read(path),
-        Some("exr") => exr::read(path, &exr::ReadOptions::default()),
+        Some("exr") => exr::read(
+            path,
+            &exr::ReadOptions {
+                part: part.map(str::to_owned),
+                ..exr::ReadOptions::default()
+            },
+        ),
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
     }
 }
@@ -201,6 +239,7 @@ mod tests {
             ("spheres", 6),
             ("sphere-cluster", 16),
             ("teapots", 6),
+            ("splats", 101),
         ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
@@ -257,7 +296,7 @@ mod tests {
                 .to_string()
         };
         let cases = [
-            (error(String::new()), "built_in, mesh: neither"),
+            (error(String::new()), "built_in, mesh, splats: none"),
             (error("built_in = \"moon\"".to_owned()), "one of glass-stacks"),
             (error("surprise = 1".to_owned()), "surprise"),
             (
@@ -285,7 +324,10 @@ mod tests {
                 error(format!("{camera}[[mesh]]\nfile = \"a.obj\"\nalpha = 1.5")),
                 "mesh[0].alpha: 1.5",
             ),
-            (error("[[mesh]]\nfile = \"a.obj\"".to_owned()), "camera: it is missing"),
+            (
+                error("[[splats]]\nfile = \"a.ply\"\nscale = 0".to_owned()),
+                "splats[0].scale: 0",
+            ),
         ];
         for (message, part) in cases {
             assert!(
@@ -322,7 +364,7 @@ mod tests {
             (
                 "i.obj",
                 "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n".to_owned(),
-                "material library",
+                "line 2: Kd '0.5 1'",
             ),
             (
                 "h.gltf",
@@ -344,8 +386,11 @@ mod tests {
         for (name, content, part) in cases {
             let path = folder.path().join(name);
             std::fs::write(&path, content).unwrap();
-            let message = mesh::load(&path, true).unwrap_err().to_string();
-            assert!(message.contains(part) && message.contains(name), "{message} / {part}");
+            let scene = SceneFile::of_file(&path)
+                .unwrap_or_else(|| SceneFile::parse(&path, &format!("[[mesh]]\nfile = '{name}'")).unwrap());
+            let message = build(&scene, &Options::default()).unwrap_err().to_string();
+            let file = if name == "i.obj" { "two.mtl" } else { name };
+            assert!(message.contains(part) && message.contains(file), "{message} / {part}");
         }
     }
 }

@@ -1,23 +1,36 @@
 //! The fragment list as an `.npz` file: the exchange format for pixels of any renderer.
 //!
-//! `offsets` u32 or u64 `[P + 1]`, `view_z` f32 `[F]`, `alpha` f32 `[F]`; optional `color` f32 `[F, 3]`, `width`, `height`, `near`, `far`.
+//! `offsets` u32 or u64 `[P + 1]`, `view_z` f32 `[F]`, `alpha` f32 `[F]`; optional `color` f32 `[F, 3]`, `width`,
+//! `height`, `near`, `far`, and where a deep image was not at its origin `data_window`, `display_window` i32 `[4]`.
+//! Other arrays are named in [`FragmentList::left_out`].
 
 use super::SceneError;
 use crate::numeric::file::{FileError, Replace};
-use crate::numeric::npy::{Element, NpyError, Npz, encode, write_npz};
-use crate::pixel::{CameraPlanes, FragmentError, FragmentList};
+use crate::numeric::npy::{Element, Entry, NpyError, Npz, encode, write_npz_of};
+use crate::pixel::{CameraPlanes, FragmentError, FragmentList, LeftOut, Windows};
 use ndarray::{ArrayView1, ArrayView2, arr0};
 use std::path::Path;
+
+/// The arrays of a list.
+const NAMES: [&str; 10] = [
+    "offsets",
+    "view_z",
+    "alpha",
+    "color",
+    "width",
+    "height",
+    "near",
+    "far",
+    "data_window",
+    "display_window",
+];
 
 /// Reads a fragment list.
 ///
 /// # Errors
 /// [`SceneError`] names the file, the array, the entry and what is expected there.
 pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
-    let npz = Npz::read(
-        path,
-        &["offsets", "view_z", "alpha", "color", "width", "height", "near", "far"],
-    )?;
+    let npz = Npz::read(path, &NAMES)?;
     let view_z = vector(&npz, "view_z", npz.required::<f32>("view_z")?)?;
     let alpha = vector(&npz, "alpha", npz.required::<f32>("alpha")?)?;
     let offsets = offsets(&npz)?;
@@ -66,7 +79,30 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
                 .into());
         }
     }
-    Ok(list)
+    if let (Some(data), Some(display)) = (window(&npz, "data_window")?, window(&npz, "display_window")?) {
+        list = list.with_windows(Windows { data, display }).map_err(content)?;
+    }
+    let others: Vec<&str> = npz.names().filter(|n| !NAMES.contains(n)).collect();
+    let what = format!("arrays {}", others.join(", "));
+    let remedy = format!("a fragment list is {}", NAMES.join(", "));
+    Ok(list.with_left_out([LeftOut::new(
+        what,
+        path.display().to_string(),
+        others.len() as u64,
+        remedy,
+    )]))
+}
+
+/// Four whole numbers of a window.
+fn window(npz: &Npz, name: &str) -> Result<Option<[i32; 4]>, NpyError> {
+    let Some(array) = npz.optional::<i32>(name)? else {
+        return Ok(None);
+    };
+    let found = format!("shape {:?}", array.shape());
+    let values = vector(npz, name, array)?;
+    <[i32; 4]>::try_from(values)
+        .map(Some)
+        .map_err(|_| npz.wrong(name, found, "x_min, y_min, x_max, y_max"))
 }
 
 /// Writes a fragment list.
@@ -75,24 +111,28 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
 /// [`FileError`]; nothing half-written is left.
 pub fn write(path: &Path, replace: Replace, list: &FragmentList) -> Result<(), FileError> {
     let mut arrays = vec![
-        ("offsets", encode(ArrayView1::from(list.offsets()))),
-        ("view_z", encode(ArrayView1::from(list.view_z()))),
-        ("alpha", encode(ArrayView1::from(list.alpha()))),
+        ("offsets", Entry::streamed(ArrayView1::from(list.offsets()))),
+        ("view_z", Entry::streamed(ArrayView1::from(list.view_z()))),
+        ("alpha", Entry::streamed(ArrayView1::from(list.alpha()))),
     ];
     if let Some(color) = list.color() {
         let flat = color.as_flattened();
         let view = ArrayView2::from_shape((color.len(), 3), flat).expect("three channels a colour");
-        arrays.push(("color", encode(view)));
+        arrays.push(("color", Entry::streamed(view)));
     }
     if let Some((width, height)) = list.size() {
-        arrays.push(("width", encode(arr0(width).view())));
-        arrays.push(("height", encode(arr0(height).view())));
+        arrays.push(("width", Entry::Encoded(encode(arr0(width).view()))));
+        arrays.push(("height", Entry::Encoded(encode(arr0(height).view()))));
     }
     if let Some(planes) = list.planes() {
-        arrays.push(("near", encode(arr0(planes.near()).view())));
-        arrays.push(("far", encode(arr0(planes.far()).view())));
+        arrays.push(("near", Entry::Encoded(encode(arr0(planes.near()).view()))));
+        arrays.push(("far", Entry::Encoded(encode(arr0(planes.far()).view()))));
     }
-    write_npz(path, replace, &arrays)
+    if let Some(Windows { data, display }) = list.windows() {
+        arrays.push(("data_window", Entry::Encoded(encode(ArrayView1::from(&data)))));
+        arrays.push(("display_window", Entry::Encoded(encode(ArrayView1::from(&display)))));
+    }
+    write_npz_of(path, replace, &arrays)
 }
 
 fn vector<T: Element>(npz: &Npz, name: &str, array: ndarray::ArrayD<T>) -> Result<Vec<T>, NpyError> {
@@ -114,59 +154,47 @@ fn offsets(npz: &Npz) -> Result<Vec<u64>, NpyError> {
             })
             .collect()
     };
-    let wrong_type = match npz.required::<u64>(NAME) {
-        Ok(array) => return vector(npz, NAME, array),
-        Err(missing @ NpyError::Missing { .. }) => return Err(missing),
-        Err(error) => error,
-    };
-    if let Ok(array) = npz.required::<u32>(NAME) {
-        return Ok(vector(npz, NAME, array)?.into_iter().map(u64::from).collect());
+    match npz.kind(NAME).as_deref() {
+        Some("<u4" | "|u4") => Ok(vector(npz, NAME, npz.required::<u32>(NAME)?)?
+            .into_iter()
+            .map(u64::from)
+            .collect()),
+        Some("<i8") => signed(vector(npz, NAME, npz.required::<i64>(NAME)?)?),
+        Some("<i4") => signed(
+            vector(npz, NAME, npz.required::<i32>(NAME)?)?
+                .into_iter()
+                .map(i64::from)
+                .collect(),
+        ),
+        _ => vector(npz, NAME, npz.required::<u64>(NAME)?),
     }
-    if let Ok(array) = npz.required::<i64>(NAME) {
-        return signed(vector(npz, NAME, array)?);
-    }
-    if let Ok(array) = npz.required::<i32>(NAME) {
-        return signed(vector(npz, NAME, array)?.into_iter().map(i64::from).collect());
-    }
-    Err(match wrong_type {
-        NpyError::Array { path, name, reason, .. } => NpyError::Array {
-            path,
-            name,
-            reason,
-            expected: "a whole NumPy array of uint32 or uint64".to_owned(),
-        },
-        other => other,
-    })
 }
 
-/// A single number of any of NumPy's usual types.
+/// A single number of any of NumPy's whole and real types.
 fn scalar(npz: &Npz, name: &str) -> Result<Option<f64>, NpyError> {
-    fn one<T: Element + TryInto<f64>>(npz: &Npz, name: &str) -> Option<Result<Option<f64>, NpyError>> {
-        let array = match npz.optional::<T>(name) {
-            Ok(None) => return Some(Ok(None)),
-            Ok(Some(array)) => array,
-            Err(_) => return None,
+    fn one<T: Element>(npz: &Npz, name: &str, to_f64: impl Fn(T) -> f64) -> Result<Option<f64>, NpyError> {
+        let Some(array) = npz.optional::<T>(name)? else {
+            return Ok(None);
         };
-        Some(match (array.len(), array.first()) {
-            (1, Some(&value)) => Ok(value.try_into().ok()),
+        match (array.len(), array.first()) {
+            (1, Some(&value)) => Ok(Some(to_f64(value))),
             _ => Err(npz.wrong(name, format!("shape {:?}", array.shape()), "a single number")),
-        })
+        }
     }
-    if let Some(found) = one::<f32>(npz, name)
-        .or_else(|| one::<u32>(npz, name))
-        .or_else(|| one::<f64>(npz, name))
-        .or_else(|| one::<i32>(npz, name))
-    {
-        return found;
-    }
-    // 64-bit integers do not convert to f64 without loss; a width or height that needs them is absurd anyway.
-    match npz.optional::<i64>(name) {
-        Ok(Some(array)) if array.len() == 1 => Ok(array.first().map(|&v| v as f64)),
-        _ => Err(npz.wrong(
-            name,
-            "not a number of a usual type",
-            "one float32, float64, int32, int64 or uint32",
-        )),
+    match npz.kind(name).as_deref() {
+        None => Ok(None),
+        Some("|u1") => one(npz, name, |v: u8| v.into()),
+        Some("|i1") => one(npz, name, |v: i8| v.into()),
+        Some("<u2") => one(npz, name, |v: u16| v.into()),
+        Some("<i2") => one(npz, name, |v: i16| v.into()),
+        Some("<u4") => one(npz, name, |v: u32| v.into()),
+        Some("<i4") => one(npz, name, |v: i32| v.into()),
+        // Where these lose anything, the number is absurd as a width or a plane anyway.
+        Some("<u8") => one(npz, name, |v: u64| v as f64),
+        Some("<i8") => one(npz, name, |v: i64| v as f64),
+        Some("<f8") => one(npz, name, |v: f64| v),
+        Some("<f4") => one(npz, name, |v: f32| v.into()),
+        Some(_) => one(npz, name, |v: f32| v.into()),
     }
 }
 
@@ -181,6 +209,7 @@ fn whole(npz: &Npz, name: &str, value: f64) -> Result<u32, NpyError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::npy::write_npz;
     use proptest::prelude::*;
 
     fn round_trip(list: &FragmentList) -> FragmentList {
@@ -250,7 +279,7 @@ mod tests {
             ),
             (
                 vec![("offsets", f(&[0.0, 1.0])), ("view_z", f(&[1.0])), ("alpha", f(&[0.5]))],
-                "expected a whole NumPy array of uint32 or uint64",
+                "write .astype(np.uint64)",
             ),
             (vec![ok.clone(), ("view_z", f(&[1.0]))], "there is no array 'alpha'"),
             (
@@ -277,7 +306,7 @@ mod tests {
                     ("view_z", encode(ArrayView1::from(&[1.0f64]))),
                     ("alpha", f(&[0.5])),
                 ],
-                "expected a whole NumPy array of float32",
+                "it is float64; write .astype(np.float32)",
             ),
         ];
         for (arrays, part) in cases {

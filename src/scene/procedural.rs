@@ -5,6 +5,7 @@
 use super::camera::{Camera, Vec3, add, cross, dot, scale, sub, unit};
 use super::file::lit;
 use super::raster::{Geometry, Particle, Vertex};
+use super::splat::Splat;
 use crate::numeric::rng::{Stream, stream};
 use rand::RngExt;
 use std::f64::consts::{PI, TAU};
@@ -18,15 +19,18 @@ pub(super) fn camera(name: &str) -> Camera {
         "foliage" => ([0.4, 1.9, 8.2], [0.0, 2.0, 0.0], 34.0),
         "sphere-cluster" => ([0.0, 1.1, 6.6], [0.0, 0.0, 0.0], 34.0),
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
+        "splats" => ([0.6, 2.0, 5.4], [0.0, 0.95, 0.0], 34.0),
         _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
     };
+    // About a hundred splats lie over each pixel, at any size.
+    let side = if name == "splats" { 256 } else { 512 };
     Camera {
         position,
         look_at,
         up: [0.0, 1.0, 0.0],
         vertical_fov,
-        width: 512,
-        height: 512,
+        width: side,
+        height: side,
         near: 0.5,
         far: 40.0,
     }
@@ -44,6 +48,7 @@ pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
         "hair" => hair(&mut out, seed),
         "foliage" => foliage(&mut out, seed),
         "spheres" => spheres(&mut out),
+        "splats" => splats(&mut out, seed),
         "sphere-cluster" => sphere_cluster(&mut out, seed),
         _ => teapots(&mut out),
     }
@@ -57,6 +62,7 @@ enum Purpose {
     Smoke,
     Hair,
     Leaves,
+    Splats,
     Spheres,
 }
 
@@ -434,6 +440,143 @@ fn foliage(out: &mut Builder, seed: u64) {
             out.flat([base, rim[1], end], paint);
             out.flat([rim[1], rim[2], end], paint);
         }
+    }
+}
+
+/// A quaternion w, x, y, z that turns the axes x, y, z into three orthonormal directions of the right hand.
+fn turn([x, y, z]: [Vec3; 3]) -> [f32; 4] {
+    // The largest of the four parts first: the others are divided by it.
+    let squares = [
+        1.0 + x[0] + y[1] + z[2],
+        1.0 + x[0] - y[1] - z[2],
+        1.0 - x[0] + y[1] - z[2],
+        1.0 - x[0] - y[1] + z[2],
+    ];
+    let largest = (1..4).fold(0, |best, k| if squares[k] > squares[best] { k } else { best });
+    let (yz, zx, xy) = (
+        (y[2] - z[1], y[2] + z[1]),
+        (z[0] - x[2], z[0] + x[2]),
+        (x[1] - y[0], x[1] + y[0]),
+    );
+    let parts = match largest {
+        0 => [squares[0], yz.0, zx.0, xy.0],
+        1 => [yz.0, squares[1], xy.1, zx.1],
+        2 => [zx.0, xy.1, squares[2], yz.1],
+        _ => [xy.0, zx.1, yz.1, squares[3]],
+    };
+    parts.map(|p| (p / (2.0 * squares[largest].sqrt())) as f32)
+}
+
+/// Normally distributed, by Box and Muller's transform.
+fn normal(rng: &mut Stream) -> f64 {
+    let radius = (-2.0 * libm::log(1.0 - rng.random::<f64>())).sqrt();
+    radius * libm::cos(between(rng, 0.0, TAU))
+}
+
+/// A plant in a pot on a table, as a capture gives it: flat Gaussians along the surfaces, most of them faint, and a
+/// haze of large ones that stands for what no camera saw well.
+fn splats(out: &mut Builder, seed: u64) {
+    const TABLE: u64 = 5000;
+    const POT: u64 = 9000;
+    const LEAVES: u64 = 70;
+    const LEAF: u64 = 330;
+    const HAZE: u64 = 900;
+    // Radius and height of the pot's outline.
+    const OUTLINE: [[f64; 2]; 6] = [
+        [0.0, 0.02],
+        [0.3, 0.0],
+        [0.42, 0.3],
+        [0.5, 0.62],
+        [0.55, 0.7],
+        [0.44, 0.66],
+    ];
+    /// A splat that lies in a surface: wider along it than across, its opacity that of a sigmoid.
+    fn flat(rng: &mut Stream, at: Vec3, across: Vec3, color: [f32; 3], size: f64) -> Splat {
+        let along = unit(cross(across, direction(rng)));
+        let off = add(at, scale(direction(rng), 0.3 * size * normal(rng)));
+        let width = size * libm::exp(0.5 * normal(rng));
+        let shade = 1.0 + 0.12 * normal(rng) as f32;
+        let opacity = 1.0 / (1.0 + libm::exp(0.7 - 1.6 * normal(rng)));
+        let [r, g, b] = color.map(|c| (c * shade).clamp(0.0, 1.0));
+        Splat {
+            position: off.map(|x| x as f32),
+            scale: [width, width * between(rng, 0.3, 0.9), 0.12 * width].map(|x| x as f32),
+            rotation: turn([along, cross(across, along), across]),
+            rgba: [r, g, b, opacity as f32],
+        }
+    }
+    let all = &mut out.geometry.splats;
+    for i in 0..TABLE {
+        let mut rng = random(seed, Purpose::Splats, i);
+        let (radius, angle) = (1.7 * between(&mut rng, 0.0, 1.0).sqrt(), between(&mut rng, 0.0, TAU));
+        let at = [radius * libm::cos(angle), 0.0, radius * libm::sin(angle)];
+        let grain = (0.5 + 0.5 * libm::sin(23.0 * at[0] + 2.0 * libm::sin(5.0 * at[2]))) as f32;
+        let color = mix([0.36, 0.22, 0.13], [0.56, 0.38, 0.24], grain);
+        all.push(flat(&mut rng, at, [0.0, 1.0, 0.0], color, 0.04));
+    }
+    for i in 0..POT {
+        let mut rng = random(seed, Purpose::Splats, (1 << 32) + i);
+        let (v, angle) = (between(&mut rng, 0.0, 1.0), between(&mut rng, 0.0, TAU));
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let ([r, y], [r1, y1]) = (smooth(&OUTLINE, v), smooth(&OUTLINE, (v + 1e-3).min(1.0)));
+        let across = unit([(y1 - y + 1e-9) * cos, r - r1, (y1 - y + 1e-9) * sin]);
+        let glaze = (0.5 + 0.5 * libm::sin(9.0 * y + 3.0 * cos)) as f32;
+        let lamp = (0.55 + 0.45 * dot(across, unit([-0.45, 0.75, 0.5]))).clamp(0.2, 1.0) as f32;
+        let color = mix([0.12, 0.28, 0.42], [0.72, 0.76, 0.74], glaze).map(|c| c * lamp);
+        all.push(flat(&mut rng, [r * cos, y, r * sin], across, color, 0.03));
+    }
+    for leaf in 0..LEAVES {
+        let mut shape = random(seed, Purpose::Splats, (2 << 32) + leaf);
+        let angle = 2.399_963_2 * leaf as f64;
+        let rise = between(&mut shape, 0.35, 1.25);
+        let length = between(&mut shape, 0.7, 1.25);
+        let width = between(&mut shape, 0.1, 0.17);
+        let young = between(&mut shape, 0.0, 1.0) as f32;
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        // Up out of the pot, over, and down again under its weight.
+        let rib = |t: f64| {
+            let reach = length * t * (0.55 + 0.35 * t);
+            [
+                reach * cos,
+                0.62 + 1.7 * rise * t - 1.15 * rise * t * t * t,
+                reach * sin,
+            ]
+        };
+        for i in 0..LEAF {
+            let mut rng = random(seed, Purpose::Splats, (3 << 32) + leaf * LEAF + i);
+            let t = between(&mut rng, 0.02, 1.0);
+            let side = between(&mut rng, -1.0, 1.0);
+            let along = unit(sub(rib(t + 1e-3), rib(t)));
+            let flank = unit([-sin, 0.25 * side, cos]);
+            let half = width * libm::sin(PI * t.powf(0.75)).max(0.05);
+            let at = add(
+                rib(t),
+                add(scale(flank, side * half), [0.0, 0.3 * half * side.abs(), 0.0]),
+            );
+            let across = unit(cross(along, flank));
+            let lamp = (0.45 + 0.55 * dot(across, unit([-0.45, 0.75, 0.5])).abs()) as f32;
+            let vein = (1.0 - 6.0 * side.abs()).max(0.0) as f32;
+            let color = mix(
+                mix([0.05, 0.27, 0.09], [0.42, 0.62, 0.2], young),
+                [0.75, 0.8, 0.5],
+                0.6 * vein,
+            );
+            all.push(flat(&mut rng, at, across, color.map(|c| c * lamp), 0.032));
+        }
+    }
+    for i in 0..HAZE {
+        let mut rng = random(seed, Purpose::Splats, (4 << 32) + i);
+        let at = scale(direction(&mut rng), 1.7 * libm::cbrt(between(&mut rng, 0.05, 1.0)));
+        let mut splat = flat(
+            &mut rng,
+            add(at, [0.0, 0.9, 0.0]),
+            [0.0, 0.0, 1.0],
+            [0.42, 0.42, 0.36],
+            0.16,
+        );
+        splat.scale[2] = splat.scale[1];
+        splat.rgba[3] *= 0.12;
+        all.push(splat);
     }
 }
 

@@ -1,12 +1,16 @@
-//! A software rasteriser: surfaces and particles to the fragments of every pixel.
+//! A software rasteriser: surfaces, particles and Gaussian splats to the fragments of every pixel.
 //!
-//! Samples lie at pixel centres. Vertices are snapped to 1/256 of a pixel and edges are decided in whole numbers under the top-left rule, so a
-//! sample on an edge that two triangles share belongs to exactly one of them. Both sides of a surface are drawn.
+//! Samples lie at pixel centres. Vertices are snapped to 1/256 of a pixel and edges are decided in whole numbers under
+//! the top-left rule, so a sample on an edge that two triangles share belongs to exactly one of them. Both sides of a
+//! surface are drawn.
 //!
-//! A picture is cut into bands of rows; each band is rasterised twice, first to count its fragments and then to fill in arrays of exactly the size
-//! needed. Fragments of a pixel stand in the order of the primitives (triangles first), whatever the number of threads.
+//! A picture is cut into bands of rows; each band is rasterised twice, first to count its fragments and then to fill in
+//! arrays of exactly the size needed. Fragments of a pixel stand in the order of the primitives (triangles, textured
+//! triangles, particles, splats), whatever the number of threads.
 
 use super::camera::{Vec3, View};
+use super::splat::{ScreenSplat, Splat};
+use super::texture::TexturedMaterial;
 use super::{MAX_FRAGMENTS, SceneError};
 use crate::pixel::FragmentList;
 use rayon::prelude::*;
@@ -16,7 +20,7 @@ use rayon::prelude::*;
 pub struct Vertex {
     /// Place [scene units].
     pub position: [f32; 3],
-    /// Linear colour (shaded already) and alpha, in [0, 1].
+    /// Linear colour (shaded already), each channel 0 or more, and alpha in [0, 1].
     pub rgba: [f32; 4],
 }
 
@@ -34,29 +38,48 @@ pub struct Particle {
     pub rgba: [f32; 4],
 }
 
+/// A triangle whose colour and alpha are multiplied by textures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TexturedTriangle {
+    /// Corners, with the colour and alpha that textures multiply.
+    pub corners: Triangle,
+    /// Texture coordinates of the corners, v downwards.
+    pub uv: [[f32; 2]; 3],
+    /// Place in [`Geometry::materials`].
+    pub material: u32,
+}
+
 /// What is to be seen.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Geometry {
     /// Surfaces.
     pub triangles: Vec<Triangle>,
+    /// Surfaces with textures.
+    pub textured: Vec<TexturedTriangle>,
+    /// Their textures.
+    pub materials: Vec<TexturedMaterial>,
     /// Soft particles; never opaque.
     pub particles: Vec<Particle>,
+    /// Gaussian splats; never opaque.
+    pub splats: Vec<Splat>,
 }
 
 /// Subpixel steps in a pixel.
 const STEPS: i64 = 256;
-/// Greatest distance of a snapped vertex from the picture's centre \[pixels\]; products of two such distances in subpixel steps fit 64 bits.
+/// Greatest distance of a snapped vertex from the picture's centre \[pixels\]; products of two such distances in
+/// subpixel steps fit 64 bits.
 const GUARD: f64 = (1 << 20) as f64;
 /// Rows of a band.
 const BAND: usize = 8;
 /// Alpha below which a particle's rim is left out.
 const FAINT: f32 = 1.0 / 512.0;
 
-/// A corner on its way to the screen: camera coordinates and colour.
+/// A corner on its way to the screen: camera coordinates, colour, texture coordinates.
 #[derive(Clone, Copy)]
 struct Corner {
     at: Vec3,
     rgba: [f32; 4],
+    uv: [f32; 2],
 }
 
 /// A triangle on the screen, its area positive.
@@ -66,7 +89,10 @@ struct ScreenTriangle {
     /// 1 / view depth of the corners.
     inverse_z: [f64; 3],
     rgba: [[f32; 4]; 3],
+    uv: [[f32; 2]; 3],
+    material: Option<u32>,
     flat: bool,
+    /// Whether any of its samples may be opaque.
     opaque: bool,
 }
 
@@ -79,9 +105,12 @@ struct ScreenParticle {
     rgba: [f32; 4],
 }
 
-enum Primitive {
-    Triangle(ScreenTriangle),
-    Particle(ScreenParticle),
+/// All that is on the screen: triangles, then particles, then splats, counted through.
+struct Screen<'a> {
+    triangles: Vec<ScreenTriangle>,
+    particles: Vec<ScreenParticle>,
+    splats: Vec<ScreenSplat>,
+    materials: &'a [TexturedMaterial],
 }
 
 /// Fragments of a geometry seen through a camera.
@@ -91,27 +120,10 @@ enum Primitive {
 /// # Errors
 /// [`SceneError::TooManyFragments`] before memory for them is taken.
 pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList, SceneError> {
-    let triangles = geometry.triangles.par_chunks(4096).flat_map_iter(|chunk| {
-        let mut out = Vec::with_capacity(chunk.len());
-        for triangle in chunk {
-            to_screen(triangle, view, &mut out);
-        }
-        out
-    });
-    let mut primitives: Vec<Primitive> = triangles.map(Primitive::Triangle).collect();
-    primitives.extend(
-        geometry
-            .particles
-            .iter()
-            .filter_map(|p| particle(p, view))
-            .map(Primitive::Particle),
-    );
-
+    let screen = Screen::new(geometry, view);
     let (width, height) = (view.width as usize, view.height as usize);
-    let bins = Bins::new(&primitives, height);
-    let any_opaque = primitives
-        .iter()
-        .any(|p| matches!(p, Primitive::Triangle(t) if t.opaque));
+    let bins = Bins::new(&screen, height);
+    let any_opaque = screen.triangles.iter().any(|t| t.opaque);
     let far = view.planes.far();
     let counted: Vec<(Vec<u32>, Vec<f32>)> = (0..bins.bands())
         .into_par_iter()
@@ -123,17 +135,22 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
                 Vec::new()
             };
             if any_opaque {
-                for &i in bins.of(band) {
-                    if let Primitive::Triangle(t) = &primitives[i as usize]
-                        && t.opaque
-                    {
-                        t.draw(width, &rows, |p, z, _| nearest[p] = nearest[p].min(z));
-                    }
+                let opaque = bins
+                    .of(band)
+                    .iter()
+                    .filter_map(|&i| screen.triangles.get(i as usize))
+                    .filter(|t| t.opaque);
+                for t in opaque {
+                    t.draw(screen.materials, width, &rows, |p, z, rgba| {
+                        if rgba[3] >= 1.0 {
+                            nearest[p] = nearest[p].min(z);
+                        }
+                    });
                 }
             }
             let mut counts = vec![0u32; rows.len() * width];
             for &i in bins.of(band) {
-                primitives[i as usize].draw(width, &rows, |p, z, _| {
+                screen.count(i, width, &rows, |p, z| {
                     counts[p] += u32::from(z <= limit(&nearest, p, far))
                 });
             }
@@ -183,7 +200,7 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
                 at += c as usize;
             }
             for &i in bins.of(band) {
-                primitives[i as usize].draw(width, &rows, |p, z, rgba| {
+                screen.draw(i, width, &rows, |p, z, rgba| {
                     if z <= limit(&nearest, p, far) {
                         let at = next[p];
                         z_out[at] = z;
@@ -217,19 +234,19 @@ struct Bins {
 }
 
 impl Bins {
-    fn new(primitives: &[Primitive], height: usize) -> Self {
+    fn new(screen: &Screen<'_>, height: usize) -> Self {
         let bands = height.div_ceil(BAND);
         let mut offsets = vec![0usize; bands + 1];
-        let touched = |p: &Primitive| {
-            let rows = p.rows(height);
+        let touched = |i: u32| {
+            let rows = screen.rows(i, height);
             if rows.is_empty() {
                 0..0
             } else {
                 rows.start / BAND..(rows.end - 1) / BAND + 1
             }
         };
-        for p in primitives {
-            for band in touched(p) {
+        for i in 0..screen.len() {
+            for band in touched(i) {
                 offsets[band + 1] += 1;
             }
         }
@@ -238,9 +255,9 @@ impl Bins {
         }
         let mut next = offsets.clone();
         let mut members = vec![0u32; offsets[bands]];
-        for (i, p) in primitives.iter().enumerate() {
-            for band in touched(p) {
-                members[next[band]] = i as u32;
+        for i in 0..screen.len() {
+            for band in touched(i) {
+                members[next[band]] = i;
                 next[band] += 1;
             }
         }
@@ -256,36 +273,94 @@ impl Bins {
     }
 }
 
-impl Primitive {
-    /// Rows of the picture that it may touch.
-    fn rows(&self, height: usize) -> std::ops::Range<usize> {
-        let (lo, hi) = match self {
-            Self::Triangle(t) => {
+/// A primitive by its number.
+enum Primitive<'a> {
+    Triangle(&'a ScreenTriangle),
+    Particle(&'a ScreenParticle),
+    Splat(&'a ScreenSplat),
+}
+
+impl<'a> Screen<'a> {
+    fn new(geometry: &'a Geometry, view: &View) -> Self {
+        let plain = geometry.triangles.par_chunks(4096).flat_map_iter(|chunk| {
+            let mut out = Vec::with_capacity(chunk.len());
+            for triangle in chunk {
+                to_screen(triangle, [[0.0; 2]; 3], None, view, &mut out);
+            }
+            out
+        });
+        let mut triangles: Vec<ScreenTriangle> = plain.collect();
+        for t in &geometry.textured {
+            to_screen(&t.corners, t.uv, Some(t.material), view, &mut triangles);
+        }
+        Self {
+            triangles,
+            particles: geometry.particles.iter().filter_map(|p| particle(p, view)).collect(),
+            splats: geometry.splats.par_iter().filter_map(|s| s.project(view)).collect(),
+            materials: &geometry.materials,
+        }
+    }
+
+    fn len(&self) -> u32 {
+        (self.triangles.len() + self.particles.len() + self.splats.len()) as u32
+    }
+
+    fn primitive(&self, i: u32) -> Primitive<'_> {
+        let i = i as usize;
+        let (triangles, particles) = (self.triangles.len(), self.particles.len());
+        if i < triangles {
+            Primitive::Triangle(&self.triangles[i])
+        } else if i < triangles + particles {
+            Primitive::Particle(&self.particles[i - triangles])
+        } else {
+            Primitive::Splat(&self.splats[i - triangles - particles])
+        }
+    }
+
+    /// Rows of the picture that a primitive may touch.
+    fn rows(&self, i: u32, height: usize) -> std::ops::Range<usize> {
+        let round = |center: f64, half: f64| ((center - half).floor() as i64, (center + half).ceil() as i64);
+        let (lo, hi) = match self.primitive(i) {
+            Primitive::Triangle(t) => {
                 let y = t.xy.map(|c| i64::from(c[1]));
                 (
                     y.into_iter().min().unwrap_or(0).div_euclid(STEPS),
                     y.into_iter().max().unwrap_or(0).div_euclid(STEPS) + 1,
                 )
             }
-            Self::Particle(p) => (
-                (p.center.1 - p.radius).floor() as i64,
-                (p.center.1 + p.radius).ceil() as i64,
-            ),
+            Primitive::Particle(p) => round(p.center.1, p.radius),
+            Primitive::Splat(s) => round(s.center.1, s.half_height + 0.5),
         };
         lo.clamp(0, height as i64) as usize..hi.clamp(0, height as i64) as usize
     }
 
-    /// Calls `f(pixel within the rows, view_z, rgba)` for every sample covered.
-    fn draw(&self, width: usize, rows: &std::ops::Range<usize>, f: impl FnMut(usize, f32, [f32; 4])) {
-        match self {
-            Self::Triangle(t) => t.draw(width, rows, f),
-            Self::Particle(p) => p.draw(width, rows, f),
+    /// Calls `f(pixel within the rows, view_z, rgba)` for every sample that a primitive covers.
+    fn draw(&self, i: u32, width: usize, rows: &std::ops::Range<usize>, f: impl FnMut(usize, f32, [f32; 4])) {
+        match self.primitive(i) {
+            Primitive::Triangle(t) => t.draw(self.materials, width, rows, f),
+            Primitive::Particle(p) => p.draw(width, rows, f),
+            Primitive::Splat(s) => s.draw(width, rows, f),
+        }
+    }
+
+    /// Calls `f(pixel within the rows, view_z)` for the same samples as [`Self::draw`].
+    fn count(&self, i: u32, width: usize, rows: &std::ops::Range<usize>, mut f: impl FnMut(usize, f32)) {
+        match self.primitive(i) {
+            Primitive::Splat(s) => s.count(width, rows, |p| f(p, s.view_z)),
+            _ => self.draw(i, width, rows, |p, z, _| f(p, z)),
         }
     }
 }
 
 impl ScreenTriangle {
-    fn draw(&self, width: usize, rows: &std::ops::Range<usize>, mut f: impl FnMut(usize, f32, [f32; 4])) {
+    fn draw(
+        &self,
+        materials: &[TexturedMaterial],
+        width: usize,
+        rows: &std::ops::Range<usize>,
+        mut f: impl FnMut(usize, f32, [f32; 4]),
+    ) {
+        let material = self.material.map(|m| &materials[m as usize]);
         let xy = self.xy.map(|c| c.map(i64::from));
         let edge = |i: usize| (xy[(i + 1) % 3], xy[(i + 2) % 3]);
         let area = cross_at(xy[0], xy[1], xy[2]);
@@ -332,10 +407,24 @@ impl ScreenTriangle {
                 let rgba = if self.flat {
                     self.rgba[0]
                 } else {
-                    std::array::from_fn(|c| {
+                    let mixed: [f32; 4] = std::array::from_fn(|c| {
                         let sum: f64 = (0..3).map(|i| w[i] * f64::from(self.rgba[i][c])).sum();
-                        (sum * z).clamp(0.0, 1.0) as f32
-                    })
+                        (sum * z).max(0.0) as f32
+                    });
+                    [mixed[0], mixed[1], mixed[2], mixed[3].min(1.0)]
+                };
+                let rgba = match material {
+                    None => rgba,
+                    Some(material) => {
+                        let uv = [0, 1].map(|c| {
+                            let sum: f64 = (0..3).map(|i| w[i] * f64::from(self.uv[i][c])).sum();
+                            (sum * z) as f32
+                        });
+                        match material.shade(rgba, uv) {
+                            Some(rgba) => rgba,
+                            None => continue,
+                        }
+                    }
                 };
                 f(row + x as usize, (z as f32).clamp(nearest, farthest), rgba);
             }
@@ -386,10 +475,17 @@ fn particle(p: &Particle, view: &View) -> Option<ScreenParticle> {
 }
 
 /// Projects a triangle, cut at the near plane and at the guard band, as a fan.
-fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
-    let corners = triangle.map(|v| Corner {
-        at: view.to_camera(v.position),
-        rgba: v.rgba,
+fn to_screen(
+    triangle: &Triangle,
+    uv: [[f32; 2]; 3],
+    material: Option<u32>,
+    view: &View,
+    out: &mut Vec<ScreenTriangle>,
+) {
+    let corners: [Corner; 3] = std::array::from_fn(|i| Corner {
+        at: view.to_camera(triangle[i].position),
+        rgba: triangle[i].rgba,
+        uv: uv[i],
     });
     let (near, far) = (f64::from(view.planes.near()), f64::from(view.planes.far()));
     if corners.iter().all(|c| c.at[2] < near) || corners.iter().all(|c| c.at[2] > far) {
@@ -413,10 +509,11 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
             .fold(corners.to_vec(), |polygon, plane| cut(&polygon, *plane))
     };
     let flat = triangle[0].rgba == triangle[1].rgba && triangle[0].rgba == triangle[2].rgba;
-    let opaque = triangle.iter().all(|v| v.rgba[3] >= 1.0);
+    let opaque = material.is_some() || triangle.iter().all(|v| v.rgba[3] >= 1.0);
     let snap = |c: &Corner| {
         let (x, y) = view.to_pixel(c.at);
-        // Rounding of far cut points may leave the guard band a little; whole-number products still fit at twice its size.
+        // Rounding of far cut points may leave the guard band a little; whole-number products still fit at twice its
+        // size.
         [x, y]
             .map(|v| v.clamp(-2.0 * GUARD, 2.0 * GUARD))
             .map(|v| (v * STEPS as f64).round() as i32)
@@ -445,6 +542,8 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
                 xy,
                 inverse_z: fan.map(|c| 1.0 / c.at[2].max(near)),
                 rgba: fan.map(|c| c.rgba),
+                uv: fan.map(|c| c.uv),
+                material,
                 flat,
                 opaque,
             });
@@ -452,8 +551,8 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
     }
 }
 
-/// The part of a polygon where `plane` is not negative. A cut point is always computed from the inner end of its edge, so that two triangles cut a
-/// shared edge at the same point.
+/// The part of a polygon where `plane` is not negative. A cut point is always computed from the inner end of its edge,
+/// so that two triangles cut a shared edge at the same point.
 fn cut(polygon: &[Corner], plane: &dyn Fn(Vec3) -> f64) -> Vec<Corner> {
     let mut out = Vec::with_capacity(polygon.len() + 1);
     for (i, &b) in polygon.iter().enumerate() {
@@ -468,6 +567,7 @@ fn cut(polygon: &[Corner], plane: &dyn Fn(Vec3) -> f64) -> Vec<Corner> {
             out.push(Corner {
                 at: std::array::from_fn(|k| inner.at[k] + t * (outer.at[k] - inner.at[k])),
                 rgba: std::array::from_fn(|k| inner.rgba[k] + t as f32 * (outer.rgba[k] - inner.rgba[k])),
+                uv: std::array::from_fn(|k| inner.uv[k] + t as f32 * (outer.uv[k] - inner.uv[k])),
             });
         }
         if db >= 0.0 {
@@ -506,7 +606,7 @@ mod tests {
         rasterise(
             &Geometry {
                 triangles,
-                particles: Vec::new(),
+                ..Geometry::default()
             },
             view,
         )
@@ -516,7 +616,8 @@ mod tests {
     const GLASS: [f32; 4] = [0.2, 0.4, 0.6, 0.5];
 
     proptest! {
-        /// A fan around a point within the picture covers every sample exactly once, wherever the point lies; the control turns one triangle away.
+        /// A fan around a point within the picture covers every sample exactly once, wherever the point lies; the
+        /// control turns one triangle away.
         #[test]
         fn shared_edges_give_one_fragment(x in -3.9f32..3.9, y in -3.9f32..3.9, depth in 4.0f32..30.0) {
             let view = view(33, 31);
@@ -541,8 +642,9 @@ mod tests {
         }
     }
 
-    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here below 1e-3 of the depth. Control:
-    /// depth interpolated linearly on the screen, between the depths at the left and right edge, is further off in the middle.
+    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here
+    /// below 1e-3 of the depth. Control: depth interpolated linearly on the screen, between the depths at the left and
+    /// right edge, is further off in the middle.
     #[test]
     fn depth_is_perspective_correct() {
         let view = view(64, 64);

@@ -85,6 +85,11 @@ pub fn path_for(model: &Path) -> PathBuf {
     model.with_extension("checkpoint.json")
 }
 
+/// What says that a training of a model is at work: beside it, `model.json` -> `model.checkpoint.lock`.
+pub fn lock_path_for(model: &Path) -> PathBuf {
+    model.with_extension("checkpoint.lock")
+}
+
 impl Checkpoint {
     /// Writes the checkpoint, in the place of an older one.
     ///

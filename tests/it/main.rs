@@ -5,6 +5,11 @@ mod bench_gpu;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod content_deep;
+mod content_lists;
+mod content_meshes;
+mod content_splats;
+mod content_work;
 mod core;
 mod docs;
 mod documents;

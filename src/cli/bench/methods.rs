@@ -7,7 +7,7 @@ use crate::chart::{Tradeoff, tradeoffs};
 use crate::cli::Verdict;
 use crate::cli::predict::SkipName;
 use crate::cli::scene::{SceneOptions, ViewOptions, load};
-use crate::cli::ui::{Ui, machine, report, table};
+use crate::cli::ui::{Ui, machine, table};
 use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
 use crate::export::Format;
@@ -98,7 +98,7 @@ impl BenchMethods {
             None
         };
 
-        let list = load(&self.fragments, &self.options)?;
+        let list = load(ui, &self.fragments, &self.options)?;
         let truth = Truth::new(&list, background);
         let setting = Setting {
             truth: &truth,
@@ -155,7 +155,7 @@ impl BenchMethods {
                     .map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })),
             );
         }
-        let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
+        let json = serde_json::to_string_pretty(&ui.report("bench", results))? + "\n";
         let mut written = String::new();
         if let Some(out) = &self.out {
             for (device, table) in &tables {

@@ -6,7 +6,7 @@ mod methods;
 mod tiles;
 mod train;
 
-use super::ui::{Progress, Ui, report, table};
+use super::ui::{Progress, Ui, table};
 use super::{Verdict, examples};
 use crate::bench::{Measurement, Network, Plan, Summary, comparison};
 use crate::features::FeatureSet;
@@ -84,7 +84,7 @@ impl Output {
 
     /// Writes the numbers, and prints them or the text.
     fn give(&self, ui: &Ui, results: Vec<Value>, text: &str) -> anyhow::Result<Verdict> {
-        let json = serde_json::to_string_pretty(&report("bench", results))? + "\n";
+        let json = serde_json::to_string_pretty(&ui.report("bench", results))? + "\n";
         let mut written = String::new();
         if let Some(out) = &self.out {
             let path = out.join(RESULTS);

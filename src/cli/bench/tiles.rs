@@ -52,7 +52,7 @@ impl BenchTiles {
         let mut done = 0;
         let mut results: Vec<(&str, Frames)> = Vec::new();
         for scene in &self.fragments {
-            let list = load(scene, &self.options)?;
+            let list = load(ui, scene, &self.options)?;
             for method in &methods {
                 let range = method.depth_range(&list, None, None)?;
                 let told = |n| progress.set(done + n, format!("{scene}, {}", method.name));

@@ -3,7 +3,7 @@
 mod tables;
 
 use super::Verdict;
-use super::ui::{Ui, report};
+use super::ui::Ui;
 use crate::model::{Mlp, shipped};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::stress::bias::{self, BiasPoint};
@@ -73,7 +73,7 @@ impl Stress {
         let results = measured.results();
         if let Some(out) = &self.out {
             create_folder(out)?;
-            let text = serde_json::to_string_pretty(&report("stress", results.clone()))? + "\n";
+            let text = serde_json::to_string_pretty(&ui.report("stress", results.clone()))? + "\n";
             write_atomically(&out.join(RESULTS), replace, |w| w.write_all(text.as_bytes()))?;
             for (name, svg) in suite::charts(&measured.points) {
                 write_atomically(&out.join(name), replace, |w| w.write_all(svg.as_bytes()))?;

@@ -62,7 +62,7 @@ fn evaluate_compares_methods() {
     assert!(four["image_mse"].as_f64().unwrap() < average["image_mse"].as_f64().unwrap());
     assert!(average["transmittance_mse"].is_null() && four["scene"] == "g");
 
-    evaluate("x", &["--background", "2", "0", "0"])
+    evaluate("x", &["--background", "nan", "0", "0"])
         .code(2)
         .stderr(contains("background"));
     nmt(&[
