@@ -1,6 +1,7 @@
 //! What transparency methods cost against their error on one fragment list, on the CPU and on the GPU.
 
 use super::{BenchError, Plan, Summary, calls_that_fill};
+use crate::evaluate::order;
 use crate::evaluate::{EvaluateError, Truth};
 use crate::export::Format;
 use crate::features::FeatureSet;
@@ -9,7 +10,7 @@ use crate::gpu::method::Composite;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
 use crate::oit::neural::{Neural, Skip};
-use crate::oit::{self, Accumulated, Context, Method, MethodError};
+use crate::oit::{self, Accumulated, Capabilities, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
 use std::time::Instant;
@@ -93,8 +94,8 @@ pub struct Cost {
     pub clock: Clock,
     /// Fragments of the list.
     pub fragments: usize,
-    /// Memory of pass 1 and the composite \[bits\].
-    pub bits_per_pixel: u32,
+    /// Memory, passes, needs, and whether the order of the fragments counts.
+    pub capabilities: Capabilities,
     /// Mean squared error of T; none where weights are no transmittances, NaN where one is not finite.
     pub transmittance_mse: Option<f64>,
     /// Mean squared error of the image; none where the list makes none, NaN where a channel is not finite.
@@ -256,9 +257,15 @@ impl Setting<'_> {
         }
     }
 
-    /// A row without times, from how a method did.
+    /// A row without times, from how a method did; where the order of the fragments counts, in a random one.
     fn cost(&self, method: &dyn Method, adapter: &str, clock: Clock) -> Result<Cost, MethodsError> {
-        let result = self.truth.judge(method, self.context)?.result;
+        let result = if method.capabilities().order_dependent {
+            let shuffled = order::shuffle_fragments(self.list(), 1);
+            let truth = Truth::new(&shuffled, self.truth.background());
+            truth.judge(method, self.context)?.result
+        } else {
+            self.truth.judge(method, self.context)?.result
+        };
         Ok(Cost {
             method: result.method,
             network: None,
@@ -267,7 +274,7 @@ impl Setting<'_> {
             arithmetic: "f64",
             clock,
             fragments: self.list().len(),
-            bits_per_pixel: result.bits_per_pixel,
+            capabilities: result.capabilities,
             transmittance_mse: result.transmittance_mse,
             image_mse: result.image_mse,
             flip_mean: result.flip_mean,
@@ -387,7 +394,7 @@ impl Setting<'_> {
             let weights = passes.weights(gpu).map_err(refused(&shader.name))?;
             let given = Given {
                 name: shader.name.clone(),
-                bits: about.bits,
+                capabilities: about.capabilities,
                 transmittance: about.transmittance,
                 composite: shader.composite,
                 weights: weights.into_iter().map(f64::from).collect(),
@@ -422,9 +429,9 @@ impl Setting<'_> {
         half: bool,
         left_out: &mut Vec<LeftOut>,
     ) -> Vec<(MethodShader, About)> {
-        // b0 in f32, and a colour target of four half-precision channels.
+        // b0 in f32.
         let none = About {
-            bits: 96,
+            capabilities: Capabilities::of_sums(1, false),
             transmittance: true,
             network: None,
             format: None,
@@ -435,11 +442,11 @@ impl Setting<'_> {
             match contender {
                 Contender::Method(method) => match MethodShader::classic(&method.name()) {
                     Some(shader) => {
-                        let (bits, transmittance) = (method.bits_per_pixel(), method.weights_are_transmittance());
+                        let (capabilities, transmittance) = (method.capabilities(), method.weights_are_transmittance());
                         shaders.push((
                             shader,
                             About {
-                                bits,
+                                capabilities,
                                 transmittance,
                                 network: None,
                                 format: None,
@@ -463,7 +470,7 @@ impl Setting<'_> {
                         match MethodShader::neural(mlp, format).map(|shader| shader.with_skip(self.skip)) {
                             Ok(shader) => {
                                 let about = About {
-                                    bits: neural.bits_per_pixel(),
+                                    capabilities: neural.capabilities(),
                                     transmittance: mlp.feature_set() != FeatureSet::DeepWeightedBlended,
                                     network: Some(mlp.shape()),
                                     format: Some(format.name()),
@@ -542,7 +549,7 @@ fn is_half(format: Format) -> bool {
 
 /// What a shader does not say of its method.
 struct About {
-    bits: u32,
+    capabilities: Capabilities,
     transmittance: bool,
     network: Option<String>,
     format: Option<&'static str>,
@@ -552,7 +559,7 @@ struct About {
 /// Weights that were computed elsewhere, as a method.
 struct Given {
     name: String,
-    bits: u32,
+    capabilities: Capabilities,
     transmittance: bool,
     composite: Composite,
     weights: Vec<f64>,
@@ -563,8 +570,8 @@ impl Method for Given {
         self.name.clone()
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        self.bits
+    fn capabilities(&self) -> Capabilities {
+        self.capabilities
     }
 
     fn weights_are_transmittance(&self) -> bool {
@@ -757,7 +764,7 @@ mod tests {
         weights[3] = f64::NAN;
         let given = Given {
             name: "given".to_owned(),
-            bits: 1,
+            capabilities: Capabilities::of_sums(1, false),
             transmittance: true,
             composite: Composite::Normalised,
             weights,

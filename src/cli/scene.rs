@@ -89,10 +89,7 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 /// The fragments of a scene by its name, or of a file.
 pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
     let path = Path::new(name);
-    let is_list = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr"));
-    if is_list && !BUILT_IN.contains(&name) {
+    if is_list(name) {
         if options.size.is_some() || options.seed.is_some() {
             bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
         }
@@ -106,6 +103,25 @@ pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> 
             seed: options.seed,
         },
     )?)
+}
+
+/// Whether a name is that of a file of fragments, and not of a scene that is rendered.
+fn is_list(name: &str) -> bool {
+    let path = Path::new(name);
+    let ends = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    (ends("npz") || ends("exr")) && !BUILT_IN.contains(&name)
+}
+
+/// The fragments of a scene, its objects drawn in a random order; none of a list, whose objects are not known.
+pub fn load_in_random_order(name: &str, options: &SceneOptions, seed: u64) -> anyhow::Result<Option<FragmentList>> {
+    if is_list(name) {
+        return Ok(None);
+    }
+    let options = Options {
+        size: options.size,
+        seed: options.seed,
+    };
+    Ok(Some(scene::build_in_random_order(&scene::open(name)?, &options, seed)?))
 }
 
 impl Scene {

@@ -5,6 +5,7 @@ pub mod flip;
 pub mod gpu;
 pub mod image;
 pub mod judge;
+pub mod order;
 pub mod picture;
 mod text;
 
@@ -12,6 +13,7 @@ pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};
+pub use order::{OrderResult, OrderedList, Shuffled};
 
 use crate::numeric::file::FileError;
 use crate::numeric::tolerance::AbsoluteError;

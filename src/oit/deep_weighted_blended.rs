@@ -1,5 +1,6 @@
 //! Deep weighted blended transparency: weighted blended, its weight function a small network.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, neural::Neural};
 use crate::features::FeatureSet;
@@ -10,8 +11,12 @@ use std::path::Path;
 /// Its name on the command line.
 pub const NAME: &str = "deep-weighted-blended";
 
-/// Sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and what is left of the background in R16F.
-pub const BITS_PER_PIXEL: u32 = 112;
+/// DWB22 Sec. 3.3: sum of alpha and number of fragments in RG16F, what is left of the background in R16F.
+pub const CAPABILITIES: Capabilities = Capabilities {
+    bits_per_pixel: Some(48),
+    needs: Needs::NONE,
+    ..Capabilities::of_sums(3, false)
+};
 
 /// The network was made for other features.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -79,8 +84,8 @@ impl Method for DeepWeightedBlended {
         NAME.to_owned()
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        BITS_PER_PIXEL
+    fn capabilities(&self) -> Capabilities {
+        CAPABILITIES
     }
 
     fn accumulate<'a>(

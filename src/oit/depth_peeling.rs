@@ -1,5 +1,6 @@
 //! Depth peeling: the nearest layers exactly, and nothing of what lies behind them.
 
+use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::{Layered, blend};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -42,9 +43,15 @@ impl Method for DepthPeeling {
         format!("{NAME}:{}", self.passes)
     }
 
-    /// Two f32 depth buffers and a colour in RGBA16F, however many passes.
-    fn bits_per_pixel(&self) -> u32 {
-        128
+    /// Two f32 depth buffers, however many passes; layers are blended into one target.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(64),
+            colour_bits_per_pixel: COLOUR_BITS,
+            geometry_passes: self.passes as u32,
+            needs: Needs::NONE,
+            order_dependent: false,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

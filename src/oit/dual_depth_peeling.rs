@@ -1,5 +1,6 @@
 //! Dual depth peeling: the nearest and the farthest layers exactly, and nothing of what lies between them.
 
+use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::{Layered, blend};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -46,9 +47,15 @@ impl Method for DualDepthPeeling {
         format!("{NAME}:{}", self.passes)
     }
 
-    /// Two depth ranges in RG32F, two front colours and one back colour in RGBA16F, however many passes.
-    fn bits_per_pixel(&self) -> u32 {
-        320
+    /// Two depth ranges in RG32F, two targets of front colours and one of back colours, however many passes; one pass more finds the first range.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(128),
+            colour_bits_per_pixel: 3 * COLOUR_BITS,
+            geometry_passes: self.passes as u32 + 1,
+            needs: Needs::F32_BLENDING,
+            order_dependent: false,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

@@ -1,6 +1,7 @@
 //! Fourier opacity mapping.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::pixel::MomentDepth;
@@ -78,9 +79,9 @@ impl MomentBased for FourierOpacity {
         format!("fourier-opacity:{}", self.harmonics)
     }
 
-    /// One number and two a harmonic in half precision (MKKP18 Table 2: 112 and 240 bits); here they are not rounded.
-    fn moment_bits(&self) -> u32 {
-        16 * (2 * self.harmonics as u32 + 1)
+    /// One number and two a harmonic, in f32; here they are not rounded.
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities::of_sums(2 * self.harmonics as u32 + 1, own)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Series {

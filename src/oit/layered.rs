@@ -1,6 +1,7 @@
 //! What methods have in common that blend layers from front to back and let a known part of the background through.
 
 use super::Accumulated;
+use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{FragmentList, Pixel, absorbance};
 use rayon::prelude::*;
 
@@ -55,13 +56,13 @@ impl Accumulated for Layered<'_> {
 pub fn composite_over(pixel: Pixel<'_>, weights: &[f64], behind: f64, background: [f64; 3]) -> [f64; 3] {
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
-    let mut sum = background.map(|c| behind * c);
+    let mut sum = [ExactSum::default(); 3];
     for ((&a, c), &w) in pixel.alpha.iter().zip(color).zip(weights) {
         for (s, &c) in sum.iter_mut().zip(c) {
-            *s += f64::from(a) * w * f64::from(c);
+            s.add(f64::from(a) * w * f64::from(c));
         }
     }
-    sum
+    std::array::from_fn(|c| behind * background[c] + sum[c].value())
 }
 
 /// Blends some fragments of a pixel from front to back as if there were no others, which get weight 0; returns what they let through.

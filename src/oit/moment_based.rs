@@ -1,17 +1,9 @@
 //! What the moment-based methods share: a pixel's moments in pass 1, a curve of transmittance over depth in pass 2, and the exact rules of `+own`.
 
+use super::capabilities::Capabilities;
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
 use std::cell::OnceCell;
-
-/// Bits of the colour target that the composite reads: four half-precision channels.
-///
-/// # Source
-/// MKKP18 Sec. 7.
-pub(super) const COLOUR_BITS: u32 = 64;
-
-/// Bits that `+own` keeps besides: least and greatest view depth in single precision.
-pub(super) const ENDS_BITS: u32 = 64;
 
 /// Share of the total absorbance below which nothing but the fragment itself is thought to be there.
 pub(super) const NOTHING_ELSE: f64 = 1e-6;
@@ -33,8 +25,12 @@ pub(super) trait MomentBased: Send + Sync {
     type Curve;
 
     fn name(&self) -> String;
-    /// Without the colour target.
-    fn moment_bits(&self) -> u32;
+    /// What it keeps and needs; `own` where both ends of the pixel are kept too.
+    fn capabilities(&self, own: bool) -> Capabilities;
+    /// Whether a stored sum is rounded with every fragment, so that it depends on their order by as much.
+    fn rounds_sums(&self) -> bool {
+        false
+    }
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments;
     /// Total absorbance as kept.
     fn total(&self, moments: &Self::Moments) -> f64;
@@ -76,6 +72,16 @@ pub(super) fn samples(warp: &LogWarp, pixel: Pixel<'_>) -> Vec<Sample> {
     pixel.view_z.iter().zip(pixel.alpha).map(sample).collect()
 }
 
+/// Brings samples into an order that does not depend on that of the input, so that f64 sums of them are the same to the bit.
+pub(super) fn sort(samples: &mut [Sample]) {
+    samples.sort_unstable_by(|a, b| a.z.0.total_cmp(&b.z.0).then(a.absorbance.total_cmp(&b.absorbance)));
+}
+
+/// The part of a name that says by what bias moments are kept valid, where it is not the published one.
+pub(super) fn bias_suffix(bias: Option<f64>) -> String {
+    bias.map_or_else(String::new, |bias| format!(":bias={bias:e}"))
+}
+
 /// The exact answer about a fragment where there is one: nearest, alone, farthest, in this order, decided on view depth bit for bit.
 ///
 /// # Domain
@@ -104,8 +110,8 @@ impl<F: MomentBased> Method for PerPixel<F> {
         format!("{}{}", self.family.name(), if self.own { "+own" } else { "" })
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        self.family.moment_bits() + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
+    fn capabilities(&self) -> Capabilities {
+        self.family.capabilities(self.own)
     }
 
     fn accumulate<'a>(
@@ -117,7 +123,13 @@ impl<F: MomentBased> Method for PerPixel<F> {
         let warp = warp(&|| self.name(), list, &context)?;
         let moments = (0..list.pixels()).into_par_iter().with_min_len(64);
         let moments = moments
-            .map(|p| self.family.accumulate(&samples(&warp, list.pixel(p))))
+            .map(|p| {
+                let mut samples = samples(&warp, list.pixel(p));
+                if !self.family.rounds_sums() {
+                    sort(&mut samples);
+                }
+                self.family.accumulate(&samples)
+            })
             .collect();
         Ok(Box::new(Pixels {
             method: self,

@@ -1,7 +1,8 @@
 //! Moment-based transparency with power moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::capabilities::{Capabilities, Needs, RANGE_BITS, sums};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{Storage, through_nlqm, through_unorm16};
@@ -12,19 +13,19 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-power-4",
-        pattern: "moment-power-4[:f32|unorm16][+own], moment-power-4:nlqm",
+        pattern: "moment-power-4[:f32|unorm16][:bias=B][+own], moment-power-4:nlqm",
         names,
         build: build::<2, 5>,
     },
     Entry {
         head: "moment-power-6",
-        pattern: "moment-power-6[:f32|unorm16][+own], moment-power-6:nlqm",
+        pattern: "moment-power-6[:f32|unorm16][:bias=B][+own], moment-power-6:nlqm",
         names,
         build: build::<3, 7>,
     },
     Entry {
         head: "moment-power-8",
-        pattern: "moment-power-8[:f32|unorm16][+own], moment-power-8:nlqm",
+        pattern: "moment-power-8[:f32|unorm16][:bias=B][+own], moment-power-8:nlqm",
         names,
         build: build::<4, 9>,
     },
@@ -38,7 +39,8 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let storage = match arguments.argument {
+    let (storage, strength) = arguments.with_bias()?;
+    let storage = match storage {
         None => Storage::F64,
         Some("f32") => Storage::F32,
         Some("unorm16") => Storage::Unorm16,
@@ -48,7 +50,7 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
     Ok(Box::new(PerPixel {
-        family: Power::<N, M> { storage },
+        family: Power::<N, M> { storage, strength },
         own: arguments.own,
     }))
 }
@@ -59,13 +61,19 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
 /// MKKP18 Sec. 3 and 4.
 struct Power<const N: usize, const M: usize> {
     storage: Storage,
+    /// Strength of the bias in place of the published one.
+    strength: Option<f64>,
 }
 
 impl<const N: usize, const M: usize> Power<N, M> {
     fn bias(&self) -> Bias {
-        match self.storage {
+        let published = match self.storage {
             Storage::Unorm16 => Bias::sixteen_bits(2 * N),
             Storage::F64 | Storage::F32 | Storage::Nlqm => Bias::single_precision(2 * N),
+        };
+        Bias {
+            strength: self.strength.unwrap_or(published.strength),
+            ..published
         }
     }
 }
@@ -85,17 +93,36 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     type Curve = PowerCurve<f64, N>;
 
     fn name(&self) -> String {
-        format!("moment-power-{}{}", 2 * N, self.storage.suffix())
+        format!(
+            "moment-power-{}{}{}",
+            2 * N,
+            self.storage.suffix(),
+            bias_suffix(self.strength)
+        )
     }
 
-    /// MKKP18 Table 1: 160 and 80 bits for four moments, 224 and 112 for six. What is kept in f64 here stands for single precision.
-    fn moment_bits(&self) -> u32 {
+    /// b_0..b_2N in f32 where nothing is rounded to 16 bits. Quantised moments are no sums that could be blended; one fragment after the other is
+    /// added to them (MKKP18 Sec. 4.3), or beside single precision sums (Sha18 Table 1).
+    fn capabilities(&self, own: bool) -> Capabilities {
+        let m = M as u32;
+        let of_sums = Capabilities::of_sums(m, own);
+        let range = if own { RANGE_BITS } else { 0 };
         match self.storage {
-            Storage::F64 | Storage::F32 => 32 * M as u32,
-            Storage::Unorm16 => 16 * M as u32,
-            // Sha18 Table 1: the single-precision target of pass 1 and the quantities beside it.
-            Storage::Nlqm => (32 + 16) * M as u32,
+            Storage::F64 | Storage::F32 => of_sums,
+            Storage::Unorm16 => Capabilities {
+                bits_per_pixel: Some(16 * m + range),
+                needs: Needs::INTERLOCK,
+                ..of_sums
+            },
+            Storage::Nlqm => Capabilities {
+                bits_per_pixel: Some(sums(m) + 16 * m),
+                ..of_sums
+            },
         }
+    }
+
+    fn rounds_sums(&self) -> bool {
+        matches!(self.storage, Storage::F32 | Storage::Unorm16)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; M] {

@@ -1,6 +1,7 @@
 //! Sharpe's moment transparency: four moments of depths in [0, 1] and the lower bound.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::moment_power::add;
 use super::registry::{Arguments, Entry, ParseError};
@@ -78,9 +79,8 @@ impl MomentBased for MomentTransparency {
         }
     }
 
-    /// Sha18 Table 1: 32 bytes with the 12 of weighted blended transparency; the colour target is counted apart, and coverage is b_0.
-    fn moment_bits(&self) -> u32 {
-        160
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities::of_sums(5, own)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; 5] {

@@ -1,7 +1,8 @@
 //! Moment-based transparency with trigonometric moments.
 
 use super::Method;
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::capabilities::{Capabilities, Needs, RANGE_BITS};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::Storage;
@@ -14,19 +15,19 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-trig-2",
-        pattern: "moment-trig-2[:f32|unorm16][+own]",
+        pattern: "moment-trig-2[:f32|unorm16][:bias=B][+own]",
         names,
         build: build::<2>,
     },
     Entry {
         head: "moment-trig-3",
-        pattern: "moment-trig-3[:f32|unorm16][+own]",
+        pattern: "moment-trig-3[:f32|unorm16][:bias=B][+own]",
         names,
         build: build::<3>,
     },
     Entry {
         head: "moment-trig-4",
-        pattern: "moment-trig-4[:f32|unorm16][+own]",
+        pattern: "moment-trig-4[:f32|unorm16][:bias=B][+own]",
         names,
         build: build::<4>,
     },
@@ -40,14 +41,15 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let storage = match arguments.argument {
+    let (storage, bias) = arguments.with_bias()?;
+    let storage = match storage {
         None => Storage::F64,
         Some("f32") => Storage::F32,
         Some("unorm16") => Storage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
     Ok(Box::new(PerPixel {
-        family: Trigonometric::<M> { storage },
+        family: Trigonometric::<M> { storage, bias },
         own: arguments.own,
     }))
 }
@@ -58,6 +60,8 @@ fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, P
 /// MKKP18 Sec. 5.
 struct Trigonometric<const M: usize> {
     storage: Storage,
+    /// The bias in place of the published one.
+    bias: Option<f64>,
 }
 
 impl<const M: usize> MomentBased for Trigonometric<M> {
@@ -65,12 +69,25 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     type Curve = TrigonometricCurve<f64, M>;
 
     fn name(&self) -> String {
-        format!("moment-trig-{M}{}", self.storage.suffix())
+        format!("moment-trig-{M}{}{}", self.storage.suffix(), bias_suffix(self.bias))
     }
 
-    /// MKKP18 Table 1: 224 and 112 bits for three moments, 288 and 144 for four.
-    fn moment_bits(&self) -> u32 {
-        (if self.storage == Storage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
+    /// b_0 and M complex moments, in f32 where nothing is rounded to 16 bits (MKKP18 Table 1).
+    fn capabilities(&self, own: bool) -> Capabilities {
+        let numbers = 2 * M as u32 + 1;
+        let of_sums = Capabilities::of_sums(numbers, own);
+        if self.storage == Storage::Unorm16 {
+            return Capabilities {
+                bits_per_pixel: Some(16 * numbers + if own { RANGE_BITS } else { 0 }),
+                needs: Needs::INTERLOCK,
+                ..of_sums
+            };
+        }
+        of_sums
+    }
+
+    fn rounds_sums(&self) -> bool {
+        matches!(self.storage, Storage::F32 | Storage::Unorm16)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments {
@@ -111,7 +128,8 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn curve(&self, b: &Self::Moments) -> Self::Curve {
-        TrigonometricCurve::new(b, moment_bias(M, self.storage == Storage::Unorm16))
+        let published = moment_bias(M, self.storage == Storage::Unorm16);
+        TrigonometricCurve::new(b, self.bias.unwrap_or(published))
     }
 
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {

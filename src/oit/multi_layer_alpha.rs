@@ -1,5 +1,6 @@
 //! Multi-layer alpha blending: a k-buffer that merges its last two layers when it overflows.
 
+use super::capabilities::{Capabilities, Needs};
 use super::layered::Layered;
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -47,8 +48,14 @@ impl Method for MultiLayerAlpha {
     }
 
     /// A layer is a colour and a transmittance in RGBA16F and a depth in R32F.
-    fn bits_per_pixel(&self) -> u32 {
-        96 * self.layers as u32
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(96u32.saturating_mul(self.layers as u32)),
+            colour_bits_per_pixel: 0,
+            geometry_passes: 1,
+            needs: Needs::INTERLOCK,
+            order_dependent: true,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

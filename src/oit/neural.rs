@@ -1,5 +1,6 @@
 //! Neural moment transparency: a network answers from moments.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
@@ -124,6 +125,11 @@ impl Neural {
     /// The frame of its moments.
     pub fn frame(&self) -> MomentFrame {
         self.frame
+    }
+
+    /// What it keeps of a pixel besides the colour \[bits\].
+    pub fn bits_per_pixel(&self) -> u32 {
+        self.capabilities().bits_per_pixel.expect("a network keeps sums")
     }
 
     /// The network.
@@ -306,13 +312,23 @@ impl Method for Neural {
         )
     }
 
-    /// NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
-    fn bits_per_pixel(&self) -> u32 {
-        match self.mlp.feature_set() {
-            FeatureSet::Paper => 352,
-            FeatureSet::DeepWeightedBlended => deep_weighted_blended::BITS_PER_PIXEL,
-            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are moments.
-            set => 128 + 32 + 16 + 64 + 32 * set.moments() as u32,
+    /// b0 and the moments, the number of fragments and both ends; the wide features of [`MomentFrame::Pixel`] need a prepass.
+    fn capabilities(&self) -> Capabilities {
+        let set = self.mlp.feature_set();
+        if set == FeatureSet::DeepWeightedBlended {
+            return deep_weighted_blended::CAPABILITIES;
+        }
+        let of_sums = Capabilities::of_sums(1 + set.moments() as u32, true);
+        if self.frame == MomentFrame::Scene {
+            return of_sums;
+        }
+        Capabilities {
+            geometry_passes: of_sums.geometry_passes + 1,
+            needs: Needs {
+                prepass: true,
+                ..of_sums.needs
+            },
+            ..of_sums
         }
     }
 

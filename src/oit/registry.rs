@@ -1,9 +1,9 @@
 //! Methods by their names on the command line.
 
 use super::{
-    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity,
-    low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
-    two_moment_passes, weighted_average, weighted_blended, weighted_sum,
+    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, hybrid,
+    low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural, stochastic,
+    two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
 
@@ -54,6 +54,24 @@ impl Arguments<'_> {
         }
     }
 
+    /// The argument without a moment bias at its end, `:bias=B`, and that bias.
+    ///
+    /// # Errors
+    /// [`ParseError::Argument`] where B is not from 0 to 1.
+    pub fn with_bias(&self) -> Result<(Option<&str>, Option<f64>), ParseError> {
+        let Some(argument) = self.argument else {
+            return Ok((None, None));
+        };
+        let (rest, bias) = match argument.rsplit_once(':').unwrap_or(("", argument)) {
+            (rest, last) if last.starts_with("bias=") => (rest, &last["bias=".len()..]),
+            _ => return Ok((Some(argument), None)),
+        };
+        match bias.parse::<f64>() {
+            Ok(bias) if (0.0..=1.0).contains(&bias) => Ok(((!rest.is_empty()).then_some(rest), Some(bias))),
+            _ => Err(self.wrong("expected a bias from 0 to 1")),
+        }
+    }
+
     /// Checks that nothing stands after the head but `+own`.
     ///
     /// # Errors
@@ -96,6 +114,9 @@ const ENTRIES: &[&[Entry]] = &[
     &[two_moment_passes::ENTRY],
     &[low_resolution_moments::ENTRY],
     &[fourier_opacity::ENTRY],
+    &[wavelet::ENTRY],
+    &[hybrid::ENTRY],
+    &[stochastic::ENTRY],
     &[depth_peeling::ENTRY],
     &[dual_depth_peeling::ENTRY],
     &[multi_layer_alpha::ENTRY],
@@ -191,13 +212,30 @@ mod tests {
         for name in &names {
             let method = parse(name).unwrap();
             assert_eq!(&method.name(), name);
-            assert!(method.bits_per_pixel() >= 64);
+            let capabilities = method.capabilities();
+            assert!(capabilities.bits_per_pixel.is_none_or(|bits| bits >= 16) && capabilities.geometry_passes >= 1);
         }
+    }
+
+    /// A bias is part of the name and changes the answers; the published one, written out, does not.
+    #[test]
+    fn a_bias_may_be_given() {
+        let list = image(64, 6);
+        let of = |name: &str| {
+            let method = parse(name).unwrap();
+            assert_eq!(method.name(), name);
+            weights(&list, &*method.accumulate(&list, Context::default()).unwrap())
+        };
+        assert_eq!(of("moment-power-4"), of("moment-power-4:bias=5e-7"));
+        assert_ne!(of("moment-power-4"), of("moment-power-4:bias=1e-4"));
+        assert_eq!(of("moment-trig-2:f32+own"), of("moment-trig-2:f32:bias=4e-7+own"));
+        assert_ne!(of("moment-trig-2"), of("moment-trig-2:bias=1e-2"));
     }
 
     #[test]
     fn wrong_names_are_explained() {
         for (name, part) in [
+            ("moment-power-4:bias=2", "a bias from 0 to 1"),
             ("moment-power-5", "known are abuffer, "),
             ("", "there is no method ''"),
             (

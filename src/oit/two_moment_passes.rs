@@ -1,6 +1,7 @@
 //! Sharpe's two moment passes: the first estimates what each fragment adds to the second.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::moment_power::add;
 use super::moment_transparency::{BIAS, unit, unit_depth};
@@ -55,9 +56,12 @@ impl MomentBased for TwoMomentPasses {
         "two-moment-passes".to_owned()
     }
 
-    /// Sha18 Table 1: 20 bytes more than moment transparency.
-    fn moment_bits(&self) -> u32 {
-        320
+    /// Two sets of moments, each in a pass over the geometry of its own.
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities {
+            geometry_passes: 3,
+            ..Capabilities::of_sums(10, own)
+        }
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Sets {

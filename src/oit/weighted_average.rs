@@ -1,5 +1,6 @@
 //! Bavoil and Myers' weighted average: all fragments of a pixel take on its mean colour and its mean opacity.
 
+use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, weighted_sums};
 use crate::pixel::{FragmentList, Pixel};
@@ -35,9 +36,9 @@ impl Method for WeightedAverage {
         NAME.to_owned()
     }
 
-    /// Σ a C and Σ a in RGBA16F, n in R16F.
-    fn bits_per_pixel(&self) -> u32 {
-        80
+    /// The number of fragments; Σ a lies in the colour's fourth channel.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::of_blending(sums(1))
     }
 
     /// They are 1.

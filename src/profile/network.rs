@@ -5,7 +5,6 @@ use crate::dataset::{Rows, build::rows};
 use crate::features::{Extractor, FeatureSet, Storage};
 use crate::model::Mlp;
 use crate::model::simplify::activity;
-use crate::oit::Method;
 use crate::oit::neural::Neural;
 use serde::Serialize;
 

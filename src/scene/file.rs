@@ -182,7 +182,8 @@ impl SceneFile {
     ///
     /// # Errors
     /// [`SceneError`] for a mesh that cannot be read or a picture that would take too much memory.
-    pub(super) fn build(&self, options: &Options) -> Result<FragmentList, SceneError> {
+    /// The fragments, objects drawn in their own order or in a random one.
+    pub(super) fn build(&self, options: &Options, draw_order: Option<u64>) -> Result<FragmentList, SceneError> {
         self.validate()?;
         let mut camera = match (&self.camera, &self.built_in) {
             (Some(camera), _) => *camera,
@@ -203,6 +204,10 @@ impl SceneFile {
         let geometry = match &self.built_in {
             Some(name) => procedural::geometry(name, options.seed.or(self.seed).unwrap_or(1), view.eye),
             None => self.mesh_geometry()?,
+        };
+        let geometry = match draw_order {
+            Some(seed) => geometry.in_random_order(seed),
+            None => geometry,
         };
         rasterise(&geometry, &view)
     }
@@ -275,6 +280,7 @@ impl SceneFile {
                     }));
                 }
             }
+            geometry.end_object();
         }
         Ok(geometry)
     }

@@ -17,7 +17,15 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 6] = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
+pub const BUILT_IN: [&str; 7] = [
+    "glass-stacks",
+    "smoke",
+    "hair",
+    "foliage",
+    "spheres",
+    "teapots",
+    "curtains",
+];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
 pub const MAX_FRAGMENTS: u64 = 1 << 28;
@@ -144,7 +152,16 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
 pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
-    scene.build(options)
+    scene.build(options, None)
+}
+
+/// The same fragments as [`build`] makes, the objects drawn in a random order: within a pixel fragments stand in the order in which a renderer that
+/// does not sort would shade them. Objects are the meshes of a scene file, and the panes, locks, leaves, pots, spheres and particles of built-in scenes.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_in_random_order(scene: &SceneFile, options: &Options, seed: u64) -> Result<FragmentList, SceneError> {
+    scene.build(options, Some(seed))
 }
 
 /// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image.
@@ -188,6 +205,7 @@ mod tests {
             ("foliage", 10),
             ("spheres", 6),
             ("teapots", 6),
+            ("curtains", 20),
         ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
@@ -197,6 +215,43 @@ mod tests {
                 "{name} covers {covered} of {} pixels",
                 list.pixels()
             );
+        }
+    }
+
+    /// A random draw order moves fragments within their pixels and changes none; objects stay whole. Control: it does move some.
+    #[test]
+    fn draw_orders_move_whole_objects() {
+        let options = Options {
+            size: Some((48, 48)),
+            seed: Some(3),
+        };
+        for name in ["glass-stacks", "foliage", "smoke", "curtains"] {
+            let scene = open(name).unwrap();
+            let (listed, drawn) = (
+                build(&scene, &options).unwrap(),
+                build_in_random_order(&scene, &options, 1).unwrap(),
+            );
+            let sorted = |list: &FragmentList, p: usize| {
+                let pixel = list.pixel(p);
+                let mut all: Vec<_> = (0..pixel.len())
+                    .map(|i| {
+                        (
+                            pixel.view_z[i].to_bits(),
+                            pixel.alpha[i].to_bits(),
+                            pixel.color.unwrap()[i].map(f32::to_bits),
+                        )
+                    })
+                    .collect();
+                all.sort_unstable();
+                all
+            };
+            assert_eq!(listed.offsets(), drawn.offsets(), "{name}");
+            assert!(
+                (0..listed.pixels()).all(|p| sorted(&listed, p) == sorted(&drawn, p)),
+                "{name}"
+            );
+            assert_ne!(listed, drawn, "{name}");
+            assert_eq!(drawn, build_in_random_order(&scene, &options, 1).unwrap());
         }
     }
 

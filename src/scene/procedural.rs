@@ -17,6 +17,7 @@ pub(super) fn camera(name: &str) -> Camera {
         "hair" => ([0.9, 0.5, 6.2], [0.0, -0.25, 0.0], 40.0),
         "foliage" => ([0.4, 1.9, 8.2], [0.0, 2.0, 0.0], 34.0),
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
+        "curtains" => ([0.0, 0.0, 0.0], [0.0, 0.0, -1.0], 40.0),
         _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
     };
     Camera {
@@ -43,6 +44,7 @@ pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
         "hair" => hair(&mut out, seed),
         "foliage" => foliage(&mut out, seed),
         "spheres" => spheres(&mut out),
+        "curtains" => curtains(&mut out, seed),
         _ => teapots(&mut out),
     }
     out.geometry
@@ -55,6 +57,7 @@ enum Purpose {
     Smoke,
     Hair,
     Leaves,
+    Curtains,
 }
 
 fn random(seed: u64, purpose: Purpose, index: u64) -> Stream {
@@ -239,6 +242,7 @@ fn glass_stacks(out: &mut Builder, seed: u64) {
                     },
                 );
             }
+            out.geometry.end_object();
         }
     }
 }
@@ -348,6 +352,9 @@ fn hair(out: &mut Builder, seed: u64) {
             let ((a, b), (d, c)) = (pair[0], pair[1]);
             out.geometry.triangles.extend([[a, b, c], [a, c, d]]);
         }
+        if i % 60 == 59 {
+            out.geometry.end_object();
+        }
     }
 }
 
@@ -365,6 +372,7 @@ fn foliage(out: &mut Builder, seed: u64) {
         |v| (0.06 * libm::sin(3.0 * v), 2.3 * v),
         |v| 0.17 - 0.11 * v + 0.1 * libm::exp(-14.0 * v),
     );
+    out.geometry.end_object();
     let boughs: Vec<Vec3> = (0..26u64)
         .map(|b| {
             let mut rng = random(seed, Purpose::Leaves, (1 << 32) + b);
@@ -391,6 +399,7 @@ fn foliage(out: &mut Builder, seed: u64) {
             |v| (reach * v, (tip[1] - from[1]) * v * (0.6 + 0.4 * v)),
             |v| 0.045 * (1.0 - 0.8 * v),
         );
+        out.geometry.end_object();
     }
     for i in 0..LEAVES {
         let mut rng = random(seed, Purpose::Leaves, i);
@@ -431,6 +440,7 @@ fn foliage(out: &mut Builder, seed: u64) {
             out.flat([base, rim[1], end], paint);
             out.flat([rim[1], rim[2], end], paint);
         }
+        out.geometry.end_object();
     }
 }
 
@@ -461,6 +471,7 @@ fn spheres(out: &mut Builder) {
                 rim: 0.45,
             },
         );
+        out.geometry.end_object();
     }
     out.sphere(
         [0.0, 0.0, 0.0],
@@ -471,6 +482,49 @@ fn spheres(out: &mut Builder) {
             rim: 0.4,
         },
     );
+}
+
+/// Gauze in narrow folds, far apart: bunches of many fragments within a hundredth of their distance, several times as far as the one before.
+fn curtains(out: &mut Builder, seed: u64) {
+    const COLORS: [[f32; 3]; 5] = [
+        [0.9, 0.35, 0.3],
+        [0.95, 0.8, 0.35],
+        [0.35, 0.75, 0.45],
+        [0.3, 0.5, 0.9],
+        [0.7, 0.4, 0.8],
+    ];
+    const DISTANCES: [f64; 5] = [1.2, 2.9, 7.0, 15.0, 34.0];
+    const SHEETS: u64 = 7;
+    const STRIPS: u64 = 9;
+    for (curtain, (&color, &distance)) in COLORS.iter().zip(&DISTANCES).enumerate() {
+        for sheet in 0..SHEETS {
+            for strip in 0..STRIPS {
+                let mut rng = random(
+                    seed,
+                    Purpose::Curtains,
+                    (curtain as u64 * SHEETS + sheet) * STRIPS + strip,
+                );
+                let alpha = between(&mut rng, 0.05, 0.35) as f32;
+                let shade = between(&mut rng, 0.0, 1.0) as f32;
+                let left = -0.55 + 1.1 * (strip as f64 + between(&mut rng, -0.4, 0.4)) / STRIPS as f64;
+                let width = between(&mut rng, 0.08, 0.24);
+                let (top, bottom) = (between(&mut rng, 0.2, 0.4), between(&mut rng, -0.4, -0.2));
+                let depth = distance * (1.0 + 0.012 * (sheet as f64 + between(&mut rng, 0.0, 1.0)) / SHEETS as f64);
+                let (fold, phase) = (between(&mut rng, 20.0, 60.0), between(&mut rng, 0.0, TAU));
+                let paint = Paint {
+                    color: mix(color, [1.0, 1.0, 1.0], 0.4 * shade),
+                    alpha,
+                    rim: 0.0,
+                };
+                out.surface(24, 2, paint, |u, v| {
+                    let x = left + width * u;
+                    let z = depth * (1.0 + 0.002 * libm::sin(fold * x + phase));
+                    [x * z, (bottom + (top - bottom) * v) * z, -z]
+                });
+                out.geometry.end_object();
+            }
+        }
+    }
 }
 
 /// Rows of pots with a lid, a spout and a handle.
@@ -534,6 +588,7 @@ fn teapots(out: &mut Builder) {
             (-0.50 + 0.44 * libm::cos(angle), 0.40 + 0.24 * libm::sin(angle))
         };
         out.tube(paint, place, ear, |_| 0.05);
+        out.geometry.end_object();
     }
 }
 

@@ -8,7 +8,9 @@
 
 use super::camera::{Vec3, View};
 use super::{MAX_FRAGMENTS, SceneError};
+use crate::numeric::rng::stream;
 use crate::pixel::FragmentList;
+use rand::RngExt;
 use rayon::prelude::*;
 
 /// Corner of a triangle.
@@ -41,6 +43,47 @@ pub struct Geometry {
     pub triangles: Vec<Triangle>,
     /// Soft particles; never opaque.
     pub particles: Vec<Particle>,
+    /// Where objects end among the triangles, in rising order; what comes after the last is one object more. Every particle is an object.
+    pub object_ends: Vec<usize>,
+}
+
+/// What random draw orders are drawn for.
+const DRAW_ORDER: u64 = 0x0d0e;
+
+impl Geometry {
+    /// Ends the object that the last triangles belong to.
+    pub fn end_object(&mut self) {
+        self.object_ends.push(self.triangles.len());
+    }
+
+    /// The same geometry with its objects in a random order, as a renderer draws them that does not sort; surfaces stay before particles.
+    pub fn in_random_order(self, seed: u64) -> Self {
+        let mut rng = stream(seed, DRAW_ORDER, 0);
+        let mut shuffle = |n: usize| {
+            let mut order: Vec<usize> = (0..n).collect();
+            for i in (1..n).rev() {
+                order.swap(i, (rng.random::<f64>() * (i + 1) as f64) as usize);
+            }
+            order
+        };
+        let mut starts = vec![0];
+        starts.extend(
+            self.object_ends
+                .iter()
+                .copied()
+                .filter(|&end| end < self.triangles.len()),
+        );
+        let end = |object: usize| starts.get(object + 1).copied().unwrap_or(self.triangles.len());
+        let mut out = Self::default();
+        for object in shuffle(starts.len()) {
+            out.triangles
+                .extend_from_slice(&self.triangles[starts[object]..end(object)]);
+            out.end_object();
+        }
+        let particles = shuffle(self.particles.len());
+        out.particles = particles.into_iter().map(|i| self.particles[i]).collect();
+        out
+    }
 }
 
 /// Subpixel steps in a pixel.
