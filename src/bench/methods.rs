@@ -41,14 +41,14 @@ pub enum MethodsError {
 }
 
 /// A method to measure.
-pub enum Contender {
+pub enum Candidate {
     /// A method by its own.
     Method(Box<dyn Method>),
     /// A network, on the GPU in each of the forms that are asked for.
     Network(Box<Mlp>),
 }
 
-impl Contender {
+impl Candidate {
     /// Its name.
     pub fn name(&self) -> String {
         match self {
@@ -238,7 +238,7 @@ pub struct Setting<'a> {
 type Timed<'a> = Box<dyn FnMut() -> Result<(f64, Option<[f64; 2]>), MethodsError> + 'a>;
 
 /// A row whose times are yet to be taken.
-struct Entrant<'a> {
+struct TimedCandidate<'a> {
     cost: Cost,
     timed: Timed<'a>,
 }
@@ -296,24 +296,24 @@ impl Setting<'_> {
     pub fn on_cpu(
         &self,
         adapter: &str,
-        contenders: &[Contender],
+        candidates: &[Candidate],
         progress: &dyn Fn(u64),
     ) -> Result<Table, MethodsError> {
         self.check()?;
-        let networks: Vec<Option<Neural>> = contenders
+        let networks: Vec<Option<Neural>> = candidates
             .iter()
             .map(|c| match c {
-                Contender::Network(mlp) => Some(Neural::new((**mlp).clone()).with_skip(self.skip)),
-                Contender::Method(_) => None,
+                Candidate::Network(mlp) => Some(Neural::new((**mlp).clone()).with_skip(self.skip)),
+                Candidate::Method(_) => None,
             })
             .collect();
         let mut left_out = Vec::new();
-        let mut entrants = Vec::new();
-        for (contender, neural) in contenders.iter().zip(&networks) {
-            let method: &dyn Method = match (contender, neural) {
-                (Contender::Method(method), _) => &**method,
+        let mut timed_candidates = Vec::new();
+        for (candidate, neural) in candidates.iter().zip(&networks) {
+            let method: &dyn Method = match (candidate, neural) {
+                (Candidate::Method(method), _) => &**method,
                 (_, Some(neural)) => neural,
-                (Contender::Network(_), None) => continue,
+                (Candidate::Network(_), None) => continue,
             };
             let mut cost = match self.cost(method, adapter, Clock::Wall) {
                 Ok(cost) => cost,
@@ -322,9 +322,9 @@ impl Setting<'_> {
                     continue;
                 }
             };
-            let network = match contender {
-                Contender::Network(mlp) => Some(mlp),
-                Contender::Method(_) => None,
+            let network = match candidate {
+                Candidate::Network(mlp) => Some(mlp),
+                Candidate::Method(_) => None,
             };
             if let Some(mlp) = network {
                 cost.network = Some(mlp.shape());
@@ -341,12 +341,12 @@ impl Setting<'_> {
                 let both = start.elapsed().as_secs_f64();
                 Ok((both, apart.then_some([accumulate, both - accumulate])))
             };
-            entrants.push(Entrant {
+            timed_candidates.push(TimedCandidate {
                 cost,
                 timed: Box::new(timed),
             });
         }
-        let costs = self.take_turns(entrants, progress)?;
+        let costs = self.run_interleaved(timed_candidates, progress)?;
         Ok(Table {
             adapter: adapter.to_owned(),
             clock: Clock::Wall,
@@ -367,7 +367,7 @@ impl Setting<'_> {
     pub fn on_gpu(
         &self,
         gpu: &Gpu,
-        contenders: &[Contender],
+        candidates: &[Candidate],
         formats: &[Format],
         progress: &dyn Fn(u64),
     ) -> Result<Table, MethodsError> {
@@ -380,8 +380,8 @@ impl Setting<'_> {
         };
         let list = DeviceList::new(gpu, self.list()).map_err(refused("fragment list"))?;
         let mut left_out = Vec::new();
-        let mut entrants = Vec::new();
-        for (shader, about) in self.shaders(contenders, formats, gpu.has_f16(), &mut left_out) {
+        let mut timed_candidates = Vec::new();
+        for (shader, about) in self.shaders(candidates, formats, gpu.has_f16(), &mut left_out) {
             let range = match shader.depth_range(self.list(), self.context.planes, self.context.depth_range) {
                 Ok(range) => range,
                 Err(why) => {
@@ -405,12 +405,12 @@ impl Setting<'_> {
                 let s = passes.run(gpu).map_err(refused(&shader.name))?;
                 Ok((s.accumulate + s.weights, Some([s.accumulate, s.weights])))
             };
-            entrants.push(Entrant {
+            timed_candidates.push(TimedCandidate {
                 cost,
                 timed: Box::new(timed),
             });
         }
-        let costs = self.take_turns(entrants, progress)?;
+        let costs = self.run_interleaved(timed_candidates, progress)?;
         Ok(Table {
             adapter,
             clock,
@@ -421,10 +421,10 @@ impl Setting<'_> {
         .finish())
     }
 
-    /// Shaders of all contenders that have one, the empty one first.
+    /// Shaders of all candidates that have one, the empty one first.
     fn shaders(
         &self,
-        contenders: &[Contender],
+        candidates: &[Candidate],
         formats: &[Format],
         half: bool,
         left_out: &mut Vec<LeftOut>,
@@ -438,9 +438,9 @@ impl Setting<'_> {
             arithmetic: "f32",
         };
         let mut shaders = vec![(MethodShader::empty(NONE), none)];
-        for contender in contenders {
-            match contender {
-                Contender::Method(method) => match MethodShader::classic(&method.name()) {
+        for candidate in candidates {
+            match candidate {
+                Candidate::Method(method) => match MethodShader::classic(&method.name()) {
                     Some(shader) => {
                         let (capabilities, transmittance) = (method.capabilities(), method.weights_are_transmittance());
                         shaders.push((
@@ -456,12 +456,12 @@ impl Setting<'_> {
                     }
                     None => left_out.push(LeftOut::new(method.name(), "has no shader", true)),
                 },
-                Contender::Network(mlp) => {
+                Candidate::Network(mlp) => {
                     let neural = Neural::new((**mlp).clone());
                     for &format in formats {
                         if !half && is_half(format) {
                             left_out.push(LeftOut::new(
-                                contender.name(),
+                                candidate.name(),
                                 format!("{}: the adapter has no f16", format.name()),
                                 true,
                             ));
@@ -478,7 +478,7 @@ impl Setting<'_> {
                                 };
                                 shaders.push((shader, about));
                             }
-                            Err(why) => left_out.push(LeftOut::new(contender.name(), why, false)),
+                            Err(why) => left_out.push(LeftOut::new(candidate.name(), why, false)),
                         }
                     }
                 }
@@ -488,9 +488,13 @@ impl Setting<'_> {
     }
 
     /// Every repetition takes each row once, with as many calls as fill a sample.
-    fn take_turns(&self, entrants: Vec<Entrant<'_>>, progress: &dyn Fn(u64)) -> Result<Vec<Cost>, MethodsError> {
-        let mut entrants = entrants;
-        for Entrant { cost, timed } in &mut entrants {
+    fn run_interleaved(
+        &self,
+        timed_candidates: Vec<TimedCandidate<'_>>,
+        progress: &dyn Fn(u64),
+    ) -> Result<Vec<Cost>, MethodsError> {
+        let mut timed_candidates = timed_candidates;
+        for TimedCandidate { cost, timed } in &mut timed_candidates {
             timed()?;
             let mut failed = None;
             let calls = calls_that_fill(self.plan.sample_seconds, |calls| {
@@ -514,7 +518,7 @@ impl Setting<'_> {
             cost.calls = calls;
         }
         for repetition in 1..=self.plan.repeat {
-            for Entrant { cost, timed } in &mut entrants {
+            for TimedCandidate { cost, timed } in &mut timed_candidates {
                 let mean = 1.0 / cost.calls as f64;
                 let (mut both, mut passes) = (0.0, None);
                 for _ in 0..cost.calls {
@@ -539,7 +543,7 @@ impl Setting<'_> {
             }
             progress(repetition as u64);
         }
-        Ok(entrants.into_iter().map(|e| e.cost).collect())
+        Ok(timed_candidates.into_iter().map(|e| e.cost).collect())
     }
 }
 
@@ -655,7 +659,7 @@ mod tests {
         .unwrap()
     }
 
-    fn contenders() -> Vec<Contender> {
+    fn candidates() -> Vec<Candidate> {
         let mlp = Mlp::new(
             "r",
             FeatureSet::Recentred,
@@ -663,11 +667,11 @@ mod tests {
             Provenance::default(),
         )
         .unwrap();
-        let mut all: Vec<Contender> = ["moment-power-4", "weighted-average", "abuffer"]
-            .map(|n| Contender::Method(oit::parse(n).unwrap()))
+        let mut all: Vec<Candidate> = ["moment-power-4", "weighted-average", "abuffer"]
+            .map(|n| Candidate::Method(oit::parse(n).unwrap()))
             .into_iter()
             .collect();
-        all.push(Contender::Network(Box::new(mlp)));
+        all.push(Candidate::Network(Box::new(mlp)));
         all
     }
 
@@ -682,7 +686,7 @@ mod tests {
             plan: PLAN,
             skip: Skip::Exact,
         };
-        let table = setting.on_cpu("this CPU", &contenders(), &|_| {}).unwrap();
+        let table = setting.on_cpu("this CPU", &candidates(), &|_| {}).unwrap();
         assert_eq!((table.costs.len(), table.left_out.len()), (4, 0));
         assert!(table.costs.windows(2).all(|c| table.time(&c[0]) <= table.time(&c[1])));
         for cost in &table.costs {
@@ -720,7 +724,7 @@ mod tests {
             skip: Skip::Exact,
         };
         let table = setting
-            .on_gpu(gpu, &contenders(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
+            .on_gpu(gpu, &candidates(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
             .unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
         assert!(
@@ -815,7 +819,7 @@ mod tests {
             plan: PLAN,
             skip: Skip::Exact,
         };
-        let both = ["weighted-blended:mb13-10", "moment-power-4"].map(|n| Contender::Method(oit::parse(n).unwrap()));
+        let both = ["weighted-blended:mb13-10", "moment-power-4"].map(|n| Candidate::Method(oit::parse(n).unwrap()));
         let table = setting.on_cpu("", &both, &|_| {}).unwrap();
         assert!(
             table.costs.len() == 1

@@ -3,7 +3,7 @@
 
 use crate::evaluate::gpu::channel_differences;
 use crate::evaluate::{EvaluateError, Image, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, Storage};
+use crate::gpu::pipeline::{Drawing, Pipeline, TargetPrecision};
 use crate::gpu::tiles::{PixelCounts, TilePasses};
 use crate::gpu::{Gpu, MethodShader};
 use crate::oit::neural::Skip;
@@ -40,7 +40,7 @@ impl Way {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
     /// Fragments that the network was run for.
-    pub asked: u64,
+    pub evaluated: u64,
     /// Pixels told apart; none where they are not.
     pub pixels: Option<PixelCounts>,
     /// Greatest difference of a channel from the image of compute passes that skip nothing.
@@ -110,7 +110,7 @@ pub fn frames(
     };
     let drawn = drawing
         .as_ref()
-        .map(|drawing| Pipeline::new(gpu, drawing, method, range, background, Storage::Full))
+        .map(|drawing| Pipeline::new(gpu, drawing, method, range, background, TargetPrecision::Full))
         .transpose()?;
     let passes = TilePasses::new(gpu, list, method, range, background)?;
     let image = || {
@@ -153,7 +153,7 @@ pub fn frames(
             } else if let Way::Compute(skip) = s.way {
                 let found = image()?;
                 s.work = Some(Work {
-                    asked: passes.asked(gpu)?,
+                    evaluated: passes.evaluated(gpu)?,
                     pixels: (skip != Skip::None).then(|| passes.counts(gpu)).transpose()?,
                     greatest_change: channel_differences(&found, &reference)?.into_iter().fold(0.0, f64::max),
                     flip_change: flip(&reference, &found)?.mean(),
@@ -207,12 +207,14 @@ mod tests {
         assert_eq!(found.samples.len(), if gpu.blends_f32() { 4 } else { 3 });
         let work: Vec<Work> = found.samples.iter().filter_map(|s| s.work).collect();
         assert_eq!(
-            (work.len(), work[0].asked, work[0].pixels),
+            (work.len(), work[0].evaluated, work[0].pixels),
             (3, list.len() as u64, None)
         );
         assert_eq!((work[0].greatest_change, work[1].greatest_change), (0.0, 0.0));
         assert!(
-            work[1].asked < work[0].asked && work[2].asked <= work[1].asked && work[2].greatest_change <= 1.0 / 512.0,
+            work[1].evaluated < work[0].evaluated
+                && work[2].evaluated <= work[1].evaluated
+                && work[2].greatest_change <= 1.0 / 512.0,
             "{work:?}"
         );
         assert!(

@@ -2,7 +2,7 @@
 
 use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::numeric::quantise::round_f16_of_f32 as half;
 use rayon::prelude::*;
 
@@ -41,9 +41,9 @@ pub fn forward_batch(mlp: &Mlp, limit: f32, rows: &[f32]) -> Vec<f32> {
             .fold(last.biases[0], |sum, (x, w)| sum + w * x);
         match mlp.feature_set().answer() {
             Answer::Sigmoid => logit.sigmoid(),
-            Answer::Fraction { column, offset } => {
-                let absorbance = (Real::exp(row[column].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0);
-                Real::exp(-(absorbance * logit.sigmoid()).min(80.0))
+            Answer::AbsorbanceShare { column, offset } => {
+                let absorbance = (Scalar::exp(row[column].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0);
+                Scalar::exp(-(absorbance * logit.sigmoid()).min(80.0))
             }
         }
     };

@@ -25,7 +25,7 @@ pub fn weights(bytes: &[u8], mlp: &Mlp) -> Result<(), String> {
         ));
         expected.push((biases_name(index), vec![dense.outputs() as i64], dense.biases.clone()));
     }
-    if let Answer::Fraction { column, offset } = mlp.feature_set().answer() {
+    if let Answer::AbsorbanceShare { column, offset } = mlp.feature_set().answer() {
         let tensors = answer_tensors(mlp.feature_set().width(), column, offset);
         expected.extend(tensors.map(|(name, dims, values)| (name.to_owned(), dims, values)));
     }

@@ -272,7 +272,7 @@ mod tests {
     use super::super::interpret::Value;
     use super::*;
     use crate::export::{encode, shader::ENTRY, shader::half_limit};
-    use crate::features::recentred::{Known, PixelSums, Seen};
+    use crate::features::recentred::{FragmentTerms, Pass2Input, PixelSums};
     use crate::features::{FeatureSet, paper};
     use crate::model::mlp::tests::random_mlp;
     use crate::model::{Dense, Provenance};
@@ -513,13 +513,13 @@ mod tests {
                     interpreter.call(name, arguments).unwrap().flatten().unwrap()
                 };
                 let mut rng = stream(5, 91, K as u64);
-                let (mut known, mut asked, mut controls) = (0, 0, 0);
+                let (mut known, mut evaluated, mut controls) = (0, 0, 0);
                 for round in 0..300 {
                     let n = 1 + round % 12;
                     let v: Vec<f32> = (0..n).map(|_| rng.random_range(2.0..8.0)).collect();
                     let alpha: Vec<f32> = (0..n).map(|_| rng.random_range(0.02..0.95)).collect();
                     let mut sums = PixelSums::<f32, K>::default();
-                    let seen: Vec<Seen<f32>> = (0..n)
+                    let terms: Vec<FragmentTerms<f32>> = (0..n)
                         .map(|i| {
                             let z = one(
                                 "nmt_moment_depth",
@@ -531,14 +531,14 @@ mod tests {
                                 .0;
                             assert!((f64::from(z) - exact).abs() < 1e-6);
                             let absorbance = one("nmt_absorbance", vec![Value::Uniform(alpha[i])])[0];
-                            Seen {
+                            FragmentTerms {
                                 view_z: v[i],
                                 z,
                                 absorbance,
                             }
                         })
                         .collect();
-                    for s in &seen {
+                    for s in &terms {
                         sums.add(*s);
                         let moments = one("nmt_moments", vec![Value::Uniform(s.z), Value::Uniform(s.absorbance)]);
                         assert_eq!(moments.len(), K);
@@ -549,9 +549,9 @@ mod tests {
                                 .all(|(k, m)| (m - s.absorbance * s.z.powi(k as i32 + 1)).abs() <= 1e-6 * s.absorbance)
                         );
                     }
-                    let end = |at: f32| seen.iter().find(|s| s.view_z == at).unwrap().z;
+                    let end = |at: f32| terms.iter().find(|s| s.view_z == at).unwrap().z;
                     let ends = [end(sums.nearest), end(sums.farthest)];
-                    for s in &seen {
+                    for s in &terms {
                         let arguments = |ends: [f32; 2]| -> Vec<Value<1>> {
                             let head = [
                                 s.view_z,
@@ -571,9 +571,9 @@ mod tests {
                         };
                         let found = one("nmt_recentred", arguments(ends));
                         let answer = one("nmt_fragment_transmittance", arguments(ends))[0];
-                        let off = |found: &[f32]| match sums.look(*s, ends) {
-                            Known::Transmittance(t) => !near(found[set.width()], t, 2e-6),
-                            Known::Features(first, measure) => {
+                        let off = |found: &[f32]| match sums.classify(*s, ends) {
+                            Pass2Input::Solved(t) => !near(found[set.width()], t, 2e-6),
+                            Pass2Input::Query(first, measure) => {
                                 let expected = first.iter().chain(&measure);
                                 found[set.width()] >= 0.0
                                     || expected
@@ -584,15 +584,15 @@ mod tests {
                         assert!(
                             !off(&found),
                             "{format:?} K = {K} n = {n}: {found:?} for {:?}",
-                            sums.look(*s, ends)
+                            sums.classify(*s, ends)
                         );
-                        match sums.look(*s, ends) {
-                            Known::Transmittance(t) => {
+                        match sums.classify(*s, ends) {
+                            Pass2Input::Solved(t) => {
                                 known += 1;
                                 assert!((answer - t).abs() <= 2e-6);
                             }
-                            Known::Features(first, measure) => {
-                                asked += 1;
+                            Pass2Input::Query(first, measure) => {
+                                evaluated += 1;
                                 let row: Vec<f32> = first.into_iter().chain(measure).collect();
                                 assert!((answer - mlp.forward::<f32>(&row)).abs() <= 0.05, "{answer}");
                                 controls += usize::from(off(&one("nmt_recentred", arguments([ends[1], ends[0]]))));
@@ -601,8 +601,8 @@ mod tests {
                     }
                 }
                 assert!(
-                    known > 300 && asked > 300 && controls > asked / 2,
-                    "{known} known, {asked} asked, {controls} controls failed"
+                    known > 300 && evaluated > 300 && controls > evaluated / 2,
+                    "{known} known, {evaluated} evaluated, {controls} controls failed"
                 );
             }
         }
@@ -630,10 +630,10 @@ mod tests {
                     let n = 1 + round % 8;
                     let half = 10f32.powf(rng.random_range(-4.0..-0.3));
                     let least = if round % 9 == 0 { 0.999 } else { 0.001 };
-                    let mut pixel: Vec<Seen<f32>> = (0..n)
+                    let mut pixel: Vec<FragmentTerms<f32>> = (0..n)
                         .map(|_| {
                             let z = rng.random_range(-half..half) + 0.3;
-                            Seen {
+                            FragmentTerms {
                                 view_z: z.exp(),
                                 z,
                                 absorbance: -(1.0f32 - rng.random_range(least..0.9999)).ln(),
@@ -744,18 +744,18 @@ mod tests {
                 for p in 0..list.pixels() {
                     let pixel = list.pixel(p);
                     let n = pixel.len();
-                    let seen: Vec<Seen<f32>> = pixel
+                    let terms: Vec<FragmentTerms<f32>> = pixel
                         .view_z
                         .iter()
                         .zip(pixel.alpha)
-                        .map(|(&view_z, &alpha)| Seen {
+                        .map(|(&view_z, &alpha)| FragmentTerms {
                             view_z,
                             z: recentred::moment_depth(view_z, range),
                             absorbance: recentred::absorbance(alpha),
                         })
                         .collect();
                     let mut sums = PixelSums::<f32, K>::default();
-                    seen.iter().for_each(|&s| sums.add(s));
+                    terms.iter().for_each(|&s| sums.add(s));
                     if n < 5 || sums.nearest == sums.farthest {
                         continue;
                     }
@@ -770,7 +770,7 @@ mod tests {
                         near(from, twin, 1e-5) || (from > 1e38 && twin > 1e38),
                         "{from} for {twin}"
                     );
-                    let exact: Vec<[f64; 2]> = seen
+                    let exact: Vec<[f64; 2]> = terms
                         .iter()
                         .map(|s| {
                             let z: f64 = recentred::moment_depth(s.view_z, range);
@@ -780,7 +780,7 @@ mod tests {
                     let [z0, z1] = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f64>(v, range));
                     let (c, h) = (0.5 * (z0 + z1), (0.5 * (z1 - z0)).max(1e-8));
                     // Long pixels are looked at here and there, to keep the test short.
-                    for (i, s) in seen.iter().enumerate().step_by(1 + n / 12) {
+                    for (i, s) in terms.iter().enumerate().step_by(1 + n / 12) {
                         let others32 = sums.b0 - s.absorbance;
                         let end = s.view_z == sums.nearest || s.view_z == sums.farthest || others32 <= 1e-6 * sums.b0;
                         let head = [s.z, s.absorbance, ends[0], ends[1], n as f32, sums.b0];
@@ -844,7 +844,7 @@ mod tests {
                             let noise = Noise::<f32>::of(n as u32, sums.b0, others32, c as f32, h as f32);
                             let noise = Noise {
                                 moments: 2.0 * f64::from(noise.moments),
-                                reach: noise.reach.into(),
+                                noise_growth: noise.noise_growth.into(),
                                 position: 2.0 * f64::from(noise.position),
                                 depth: 2.0 * f64::from(noise.depth),
                             };

@@ -73,7 +73,7 @@ fn sample_json(scene: &str, frames: &Frames, s: &FrameSamples) -> Value {
     let pixels = s.work.and_then(|w| w.pixels);
     json!({
         "benchmark": "tiles", "scene": scene, "method": frames.method, "adapter": frames.adapter, "passes": s.way.name(), "skip": s.way.skip(),
-        "fragments": frames.fragments, "fragments_asked": s.work.map(|w| w.asked),
+        "fragments": frames.fragments, "fragments_evaluated": s.work.map(|w| w.evaluated),
         "pixels_network": pixels.map(|p| p.network), "pixels_hiding": pixels.map(|p| p.hiding), "pixels_known": pixels.map(|p| p.known),
         "greatest_change": s.work.map(|w| w.greatest_change), "flip_change": s.work.map(|w| w.flip_change), "speedup": frames.speedup(s),
         "seconds_accumulate": Summary::of(&s.accumulate).median, "seconds_weights": Summary::of(&s.weights).median,
@@ -128,7 +128,7 @@ fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
                 of(&|w| {
                     format!(
                         "{:.1} %",
-                        100.0 * (1.0 - w.asked as f64 / frames.fragments.max(1) as f64)
+                        100.0 * (1.0 - w.evaluated as f64 / frames.fragments.max(1) as f64)
                     )
                 }),
                 of(&|w| format!("{:.1e}", w.greatest_change)),

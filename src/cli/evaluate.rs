@@ -13,7 +13,7 @@ use crate::evaluate::order::{fragment_orders, judge_in_orders};
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
 use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Truth};
 use crate::gpu::Gpu;
-use crate::gpu::pipeline::Storage;
+use crate::gpu::pipeline::TargetPrecision;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
 use crate::oit::{Context, Method};
@@ -75,7 +75,7 @@ enum StorageName {
     Half,
 }
 
-impl From<StorageName> for Storage {
+impl From<StorageName> for TargetPrecision {
     fn from(name: StorageName) -> Self {
         match name {
             StorageName::Full => Self::Full,

@@ -696,7 +696,7 @@ fn random_table(found: &[Found]) -> String {
     let head = [
         "random fragments",
         "fragments",
-        "asked",
+        "evaluated",
         "not finite",
         "out of range",
         "nearest not 1",
@@ -708,7 +708,7 @@ fn random_table(found: &[Found]) -> String {
         let c = &f.counts;
         let counts = [
             c.fragments,
-            c.asked,
+            c.evaluated,
             c.nonfinite,
             c.out_of_range,
             c.nearest_not_one,

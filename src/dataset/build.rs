@@ -2,7 +2,7 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, RowStream, Rows};
-use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, Storage};
+use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, SumPrecision};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
@@ -30,7 +30,7 @@ pub struct DatasetConfig {
     pub rows_per_pixel: u32,
     /// Precision in which moments are added up, where the feature set leaves that open.
     #[serde(default, skip_serializing_if = "is_default")]
-    pub storage: Storage,
+    pub storage: SumPrecision,
     /// How much each row counts in the loss.
     #[serde(default, skip_serializing_if = "is_default")]
     pub weights: Weighting,
@@ -110,7 +110,7 @@ impl DatasetConfig {
             training_pairs,
             validation_pairs,
             rows_per_pixel: 0,
-            storage: Storage::default(),
+            storage: SumPrecision::default(),
             weights: Weighting::default(),
             refresh: 0.0,
         }
@@ -141,7 +141,7 @@ impl DatasetConfig {
 /// # Errors
 /// [`DepthError`] where a fragment's depth does not fit the feature set.
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
-    let Look { known, features } = extractor.list(list, 0..list.pixels())?;
+    let Extracted { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
     let asked = |values: &mut dyn Iterator<Item = f32>| {
         known

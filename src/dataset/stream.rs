@@ -372,7 +372,7 @@ mod tests {
     use super::*;
     use crate::dataset::build;
     use crate::dataset::build::tests::sizes;
-    use crate::features::{FeatureSet, Storage};
+    use crate::features::{FeatureSet, SumPrecision};
 
     /// Bytes of sampled rows, the same at every SIMD level and on every machine.
     #[test]
@@ -421,8 +421,8 @@ mod tests {
     fn streamed_rows_are_in_their_domain() {
         for rows in [
             streamed(|_| {}),
-            streamed(|c| c.storage = Storage::F16),
-            streamed(|c| c.storage = Storage::Unorm16),
+            streamed(|c| c.storage = SumPrecision::F16),
+            streamed(|c| c.storage = SumPrecision::Unorm16),
         ] {
             assert!(rows.len() >= 3000 && rows.len() < 3004);
             assert!(rows.pixels.chunk_by(|a, b| a == b).all(|of_one| of_one.len() <= 4));
@@ -442,8 +442,8 @@ mod tests {
     #[test]
     fn storage_is_what_moments_are_rounded_to() {
         let all = |storage| streamed(|c| (c.rows_per_pixel, c.storage) = (0, storage));
-        let single = all(Storage::F32);
-        for storage in [Storage::F16, Storage::Unorm16] {
+        let single = all(SumPrecision::F32);
+        for storage in [SumPrecision::F16, SumPrecision::Unorm16] {
             compare(&single, &all(storage));
         }
     }

@@ -1,7 +1,7 @@
 //! What the GPU makes of a method, beside the CPU's image of it and the exact one.
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, Storage};
+use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, TargetPrecision};
 use crate::gpu::tiles::TilePasses;
 use crate::gpu::{Gpu, GpuError, MethodShader};
 use crate::oit::Context;
@@ -78,7 +78,7 @@ fn render(
     list: &FragmentList,
     context: Context,
     background: [f32; 3],
-    storage: Storage,
+    storage: TargetPrecision,
     skip: Skip,
 ) -> Result<Rendered, GpuError> {
     let range = method.depth_range(list, context.planes, context.depth_range)?;
@@ -101,7 +101,7 @@ fn render(
 }
 
 /// Whether render passes make the image.
-pub fn is_drawn(gpu: &Gpu, storage: Storage) -> bool {
+pub fn is_drawn(gpu: &Gpu, storage: TargetPrecision) -> bool {
     gpu.blends_f32() || !storage.blends_f32()
 }
 
@@ -114,7 +114,7 @@ pub fn judge(
     method: &MethodShader,
     truth: &Truth<'_>,
     context: Context,
-    storage: Storage,
+    storage: TargetPrecision,
     skip: Skip,
     cpu: &Image,
 ) -> Result<GpuJudged, EvaluateError> {
@@ -141,9 +141,13 @@ pub fn judge(
         method: method.name.clone(),
         adapter: gpu.name(),
         passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
-        storage: if is_drawn(gpu, storage) { storage } else { Storage::Full }
-            .name()
-            .to_owned(),
+        storage: if is_drawn(gpu, storage) {
+            storage
+        } else {
+            TargetPrecision::Full
+        }
+        .name()
+        .to_owned(),
         channel_difference_999: within_999(
             (0..list.pixels())
                 .filter(|&p| !list.range(p).is_empty())
@@ -211,7 +215,7 @@ mod tests {
             &method,
             &truth,
             Context::default(),
-            Storage::Full,
+            TargetPrecision::Full,
             Skip::Exact,
             &cpu,
         )
@@ -228,7 +232,7 @@ mod tests {
             &method,
             &truth,
             Context::default(),
-            Storage::Full,
+            TargetPrecision::Full,
             Skip::Exact,
             &other,
         )

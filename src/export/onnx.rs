@@ -249,7 +249,7 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         let (op, to) = match (index == last, mlp.feature_set().answer()) {
             (false, _) => ("Relu", format!("h{}", index + 1)),
             (true, Answer::Sigmoid) => ("Sigmoid", OUTPUT.to_owned()),
-            (true, Answer::Fraction { .. }) => ("Neg", "minus_logit".to_owned()),
+            (true, Answer::AbsorbanceShare { .. }) => ("Neg", "minus_logit".to_owned()),
         };
         node.push(NodeProto {
             input: vec![sum],
@@ -260,7 +260,7 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         from = to;
     }
     let set = mlp.feature_set();
-    if let Answer::Fraction { column, offset } = set.answer() {
+    if let Answer::AbsorbanceShare { column, offset } = set.answer() {
         // The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too large beside a great absorbance.
         // exp(−relu(exp(min(features[:, column], most)) − offset) · share); the column is picked by a product with a column of the unit matrix.
         for (name, dims, values) in answer_tensors(set.width(), column, offset) {

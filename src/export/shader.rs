@@ -57,7 +57,7 @@ pub const SHARE: &str = "nmt_share";
 pub fn network_function(set: FeatureSet) -> &'static str {
     match set.answer() {
         Answer::Sigmoid => ENTRY,
-        Answer::Fraction { .. } => SHARE,
+        Answer::AbsorbanceShare { .. } => SHARE,
     }
 }
 
@@ -499,7 +499,7 @@ impl Network<'_> {
         let set = self.mlp.feature_set();
         let what = match set.answer() {
             Answer::Sigmoid => "Transmittance in front of the fragment with features f",
-            Answer::Fraction { .. } => {
+            Answer::AbsorbanceShare { .. } => {
                 "Share of the other fragments' absorbance that lies in front of the fragment with features f"
             }
         };
@@ -583,7 +583,7 @@ impl Network<'_> {
         let language = self.kind.language;
         // 1/(1 + e^−x)
         let mut text = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n".to_owned();
-        if let Answer::Fraction { column, offset } = self.mlp.feature_set().answer() {
+        if let Answer::AbsorbanceShare { column, offset } = self.mlp.feature_set().answer() {
             let absorbance = format!(
                 "max(exp(min(f[{column}], {})) - {}, 0.0)",
                 language.literal(MAX_LOG_ABSORBANCE),

@@ -1,5 +1,6 @@
 //! Feature sets: what the network sees of a fragment. The only place that knows an order of columns.
 
+pub mod core;
 pub mod deep_weighted_blended;
 pub mod paper;
 pub mod passes;
@@ -17,7 +18,7 @@ use deep_weighted_blended::LinearRange;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
-use recentred::{Known, PixelSums, Rounding, Seen};
+use recentred::{FragmentTerms, Pass2Input, PixelSums, Rounding};
 use serde::{Deserialize, Serialize};
 
 /// A feature set: which numbers, in which order, of which moments.
@@ -59,7 +60,7 @@ pub enum Answer {
     /// The sigmoid s.
     Sigmoid,
     /// exp(−b s), b = e^min(f, 40) − offset, at least 0, f the feature of a column.
-    Fraction {
+    AbsorbanceShare {
         /// The column.
         column: usize,
         /// What was added before the logarithm.
@@ -163,7 +164,7 @@ impl FeatureSet {
     pub fn answer(self) -> Answer {
         match self.output() {
             OutputMeaning::Transmittance | OutputMeaning::FrontToBackFactor => Answer::Sigmoid,
-            OutputMeaning::AbsorbanceShare => Answer::Fraction {
+            OutputMeaning::AbsorbanceShare => Answer::AbsorbanceShare {
                 column: recentred::ABSORBANCE_COLUMN,
                 offset: recentred::ABSORBANCE_OFFSET,
             },
@@ -203,7 +204,7 @@ impl FeatureSet {
 pub struct Extractor {
     set: FeatureSet,
     kind: Kind,
-    storage: Storage,
+    storage: SumPrecision,
     frame: MomentFrame,
 }
 
@@ -228,7 +229,7 @@ pub enum MomentFrame {
 /// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Storage {
+pub enum SumPrecision {
     /// RGBA32F targets: every sum is rounded to f32.
     #[default]
     F32,
@@ -238,7 +239,7 @@ pub enum Storage {
     Unorm16,
 }
 
-impl Storage {
+impl SumPrecision {
     /// What it does to moments.
     pub fn rounding(self) -> Rounding<f32> {
         match self {
@@ -289,7 +290,7 @@ impl Sampled {
     }
 
     /// Fills the lanes with a pixel: `to_depth` takes view depths to those that the feature set measures.
-    fn see(&mut self, pixel: Pixel<'_>, to_depth: &impl ToDepth) {
+    fn transform_depths(&mut self, pixel: Pixel<'_>, to_depth: &impl ToDepth) {
         let n = pixel.len().div_ceil(LANES);
         for (lanes, values, rest) in [
             (&mut self.view_z, pixel.view_z, f32::INFINITY),
@@ -313,14 +314,14 @@ impl Sampled {
             absorbance,
             ..
         } = self;
-        dispatch!(Level::new(), simd => see_lanes(simd, to_depth, view_z, alpha_lanes, depth, absorbance));
+        dispatch!(Level::new(), simd => transform_lanes(simd, to_depth, view_z, alpha_lanes, depth, absorbance));
     }
 }
 
 impl Sampled {
     /// A fragment as both passes see it.
-    fn seen(&self, i: usize) -> Seen<f32> {
-        Seen {
+    fn terms(&self, i: usize) -> FragmentTerms<f32> {
+        FragmentTerms {
             view_z: at(&self.view_z, i),
             z: at(&self.depth, i),
             absorbance: at(&self.absorbance, i),
@@ -385,7 +386,7 @@ impl ToDepth for CameraPlanes {
 }
 
 #[inline(always)]
-fn see_lanes<S: Simd>(
+fn transform_lanes<S: Simd>(
     simd: S,
     to_depth: &impl ToDepth,
     view_z: &[Lanes],
@@ -474,10 +475,10 @@ fn sums_lanes<S: Simd, const K: usize>(
 
 /// What a feature set says of some fragments.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Look {
-    /// Transmittance of every fragment where it is known without a network, NaN where the network is asked; `[F']`.
+pub struct Extracted {
+    /// Transmittance of every fragment where it is known without a network, NaN where the network is evaluated; `[F']`.
     pub known: Vec<f32>,
-    /// Features of the fragments that the network is asked about, in the order of the fragments; `[Q, W]`, row by row.
+    /// Features of the fragments that the network is evaluated for, in the order of the fragments; `[Q, W]`, row by row.
     pub features: Vec<f32>,
 }
 
@@ -509,7 +510,7 @@ impl Extractor {
         Ok(Self {
             set,
             kind,
-            storage: Storage::F32,
+            storage: SumPrecision::F32,
             frame: MomentFrame::Scene,
         })
     }
@@ -530,7 +531,7 @@ impl Extractor {
     }
 
     /// The same with moments in another precision; `paper`'s and `deep-weighted-blended`'s sums stay in f64, as they were published.
-    pub fn with_storage(self, storage: Storage) -> Self {
+    pub fn with_storage(self, storage: SumPrecision) -> Self {
         Self { storage, ..self }
     }
 
@@ -577,9 +578,9 @@ impl Extractor {
         &self,
         pixel: Pixel<'_>,
         warp: LogWarp,
-        seen: &mut Vec<Seen<f32>>,
+        terms: &mut Vec<FragmentTerms<f32>>,
     ) -> (PixelSums<f32, K>, [f32; 2]) {
-        seen.clear();
+        terms.clear();
         let warp = match self.frame {
             MomentFrame::Pixel if !pixel.is_empty() => own_warp(pixel.view_z),
             _ => warp,
@@ -587,13 +588,13 @@ impl Extractor {
         let mut sums = PixelSums::<f32, K>::default();
         let mut ends = [0.0; 2];
         for (&view_z, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
-            let one = Seen {
+            let one = FragmentTerms {
                 view_z,
                 z: warp.moment(ViewZ(view_z.into())).0 as f32,
                 absorbance: absorbance(alpha) as f32,
             };
             self.add(&mut sums, &mut ends, one);
-            seen.push(one);
+            terms.push(one);
         }
         self.keep(&mut sums);
         (sums, ends)
@@ -607,15 +608,15 @@ impl Extractor {
             "one row of {} numbers a fragment",
             width + 1
         );
-        let mut seen = Vec::with_capacity(pixel.len());
-        let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut seen);
-        for (row, seen) in out.chunks_exact_mut(width + 1).zip(seen) {
-            row[width] = match sums.look_at_stored(seen, ends, self.storage.rounding()) {
-                Known::Transmittance(t) => {
+        let mut terms = Vec::with_capacity(pixel.len());
+        let (sums, ends) = self.pass_1::<K>(pixel, warp, &mut terms);
+        for (row, terms) in out.chunks_exact_mut(width + 1).zip(terms) {
+            row[width] = match sums.classify_stored(terms, ends, self.storage.rounding()) {
+                Pass2Input::Solved(t) => {
                     row[..width].fill(0.0);
                     t
                 }
-                Known::Features(first, measure) => {
+                Pass2Input::Query(first, measure) => {
                     row[..first.len()].copy_from_slice(&first);
                     row[first.len()..width].copy_from_slice(&measure);
                     f32::NAN
@@ -624,7 +625,7 @@ impl Extractor {
         }
     }
 
-    /// Appends rows of at most `most` fragments of a pixel that the network is asked about, chosen at random: features, and the exact transmittance.
+    /// Appends rows of at most `most` fragments of a pixel that the network is evaluated for, chosen at random: features, and the exact transmittance.
     ///
     /// The arithmetic is f32 throughout, multiplications and additions apart, so that rows are the same on every machine; they differ from those of
     /// [`Self::pixel`] by rounding (`sampled_rows_are_those_of_whole_pixels`).
@@ -649,7 +650,7 @@ impl Extractor {
     /// [`Self::sample`] of the paper's features, which ask the network about every fragment.
     fn sample_paper(&self, pixel: Pixel<'_>, planes: CameraPlanes, most: usize, rng: &mut Stream, rows: &mut Sampled) {
         let n = pixel.len();
-        rows.see(pixel, &planes);
+        rows.transform_depths(pixel, &planes);
         let b = paper::describe_lanes(n, &mut rows.depth, &rows.absorbance);
         rows.choose(n, most, rng, |i, Sampled { depth, features, .. }| {
             features.extend_from_slice(&[at(depth, i), n as f32, b[0], b[1], b[2], b[3], b[4]]);
@@ -670,7 +671,7 @@ impl Extractor {
             MomentFrame::Pixel if n > 0 => own_warp(pixel.view_z),
             _ => warp,
         };
-        rows.see(pixel, &warp);
+        rows.transform_depths(pixel, &warp);
         if self.frame == MomentFrame::Pixel {
             // Sixteen logarithms at once are too coarse for ratios near 1.
             for (i, &v) in pixel.view_z.iter().enumerate() {
@@ -683,23 +684,23 @@ impl Extractor {
             absorbance,
             ..
         } = &*rows;
-        let (mut sums, ends) = if self.storage == Storage::F16 {
+        let (mut sums, ends) = if self.storage == SumPrecision::F16 {
             // Every sum is rounded.
             let (mut sums, mut ends) = (PixelSums::default(), [0.0; 2]);
-            (0..n).for_each(|i| self.add(&mut sums, &mut ends, rows.seen(i)));
+            (0..n).for_each(|i| self.add(&mut sums, &mut ends, rows.terms(i)));
             (sums, ends)
         } else {
             dispatch!(Level::new(), simd => sums_lanes::<_, K>(simd, n, view_z, depth, absorbance))
         };
         self.keep(&mut sums);
         rows.choose(n, most, rng, |i, rows| {
-            match sums.look_at_stored(rows.seen(i), ends, self.storage.rounding()) {
-                Known::Features(first, measure) => {
+            match sums.classify_stored(rows.terms(i), ends, self.storage.rounding()) {
+                Pass2Input::Query(first, measure) => {
                     rows.features.extend_from_slice(&first);
                     rows.features.extend_from_slice(&measure);
                     true
                 }
-                Known::Transmittance(_) => false,
+                Pass2Input::Solved(_) => false,
             }
         });
     }
@@ -713,7 +714,7 @@ impl Extractor {
                 *b = (kept * b0) as f32;
             }
         }
-        if self.storage == Storage::Unorm16 && sums.b0 > 0.0 {
+        if self.storage == SumPrecision::Unorm16 && sums.b0 > 0.0 {
             match K {
                 4 => through::<5>(sums.b0, &mut sums.b),
                 6 => through::<7>(sums.b0, &mut sums.b),
@@ -723,15 +724,15 @@ impl Extractor {
     }
 
     /// Pass 1: adds a fragment, in the precision of the storage.
-    fn add<const K: usize>(&self, sums: &mut PixelSums<f32, K>, ends: &mut [f32; 2], seen: Seen<f32>) {
-        sums.add(seen);
-        if sums.nearest == seen.view_z {
-            ends[0] = seen.z;
+    fn add<const K: usize>(&self, sums: &mut PixelSums<f32, K>, ends: &mut [f32; 2], terms: FragmentTerms<f32>) {
+        sums.add(terms);
+        if sums.nearest == terms.view_z {
+            ends[0] = terms.z;
         }
-        if sums.farthest == seen.view_z {
-            ends[1] = seen.z;
+        if sums.farthest == terms.view_z {
+            ends[1] = terms.z;
         }
-        if self.storage == Storage::F16 {
+        if self.storage == SumPrecision::F16 {
             sums.b0 = round_f16(sums.b0.into()) as f32;
             sums.b = sums.b.map(|b| round_f16(b.into()) as f32);
         }
@@ -741,7 +742,7 @@ impl Extractor {
     ///
     /// # Errors
     /// As [`Self::pixel`].
-    pub fn list(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<Look, DepthError> {
+    pub fn list(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<Extracted, DepthError> {
         let width = self.set().width();
         let fragments = (list.offsets()[range.end] - list.offsets()[range.start]) as usize;
         let mut rows = vec![0.0; fragments * (width + 1)];
@@ -756,7 +757,7 @@ impl Extractor {
             }
         }
         rows.truncate(kept);
-        Ok(Look { known, features: rows })
+        Ok(Extracted { known, features: rows })
     }
 }
 
@@ -814,7 +815,7 @@ mod tests {
             let none = FragmentList::new(vec![0, 0], vec![], vec![], None).unwrap();
             let extractor = Extractor::for_list(set, &none, planes, None).unwrap();
             assert_eq!(extractor.set(), set);
-            assert_eq!(extractor.list(&none, 0..1).unwrap(), Look::default());
+            assert_eq!(extractor.list(&none, 0..1).unwrap(), Extracted::default());
         }
     }
 
@@ -823,11 +824,11 @@ mod tests {
     fn the_range_is_the_lists_unless_given() {
         let list = FragmentList::new(vec![0, 2, 3], vec![2.0, 3.0, 6.0], vec![0.5, 0.5, 1.0], None).unwrap();
         let depths = |range| {
-            let look = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range)
+            let extracted = Extractor::for_list(FeatureSet::DeepWeightedBlended, &list, None, range)
                 .unwrap()
                 .list(&list, 0..2)
                 .unwrap();
-            look.features.chunks_exact(3).map(|row| row[0]).collect::<Vec<_>>()
+            extracted.features.chunks_exact(3).map(|row| row[0]).collect::<Vec<_>>()
         };
         assert_eq!(depths(None), [0.0, 0.25, 1.0]);
         assert_eq!(depths(Some((1.0, 9.0))), [0.125, 0.25, 0.625]);
@@ -856,12 +857,12 @@ mod tests {
                 extractor.pixel(pixel, &mut whole).unwrap();
                 let mut exact = vec![0.0; n];
                 abuffer::transmittance(pixel, &mut exact);
-                let asked: Vec<usize> = (0..n).filter(|i| whole[i * (width + 1) + width].is_nan()).collect();
+                let evaluated: Vec<usize> = (0..n).filter(|i| whole[i * (width + 1) + width].is_nan()).collect();
                 let mut rows = Sampled::default();
                 extractor.sample(pixel, usize::MAX, &mut rng, &mut rows);
                 assert_eq!(
                     (rows.of_pixel, rows.targets.len(), rows.features.len()),
-                    (asked.len(), asked.len(), asked.len() * width)
+                    (evaluated.len(), evaluated.len(), evaluated.len() * width)
                 );
                 let off = |row: &[f32], i: usize| {
                     let expected = &whole[i * (width + 1)..][..width];
@@ -873,7 +874,7 @@ mod tests {
                         off.is_nan() || off > bar(k) * (1.0 + e.abs())
                     })
                 };
-                for (k, (&i, row)) in asked.iter().zip(rows.features.chunks_exact(width)).enumerate() {
+                for (k, (&i, row)) in evaluated.iter().zip(rows.features.chunks_exact(width)).enumerate() {
                     assert!(
                         !off(row, i) || width > 7,
                         "{set:?} n = {n}: {row:?} for {:?}",
@@ -881,13 +882,13 @@ mod tests {
                     );
                     assert!((f64::from(rows.targets[k]) - exact[i]).abs() <= 2e-6);
                     assert_eq!(rows.alpha[k], alpha[i]);
-                    controls += usize::from(k > 0 && off(row, asked[k - 1]));
+                    controls += usize::from(k > 0 && off(row, evaluated[k - 1]));
                     compared += 1;
                 }
                 // Some of them: as many as asked for, each one of the pixel's, none twice.
                 let mut some = Sampled::default();
                 extractor.sample(pixel, 3, &mut rng, &mut some);
-                assert_eq!(some.of_pixel, asked.len().min(3));
+                assert_eq!(some.of_pixel, evaluated.len().min(3));
                 let mut seen: Vec<&[f32]> = some.features.chunks_exact(width).collect();
                 assert!(
                     seen.iter()

@@ -4,10 +4,10 @@
 //! a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not
 //! on its company, and to leave out the network where its answer is not used changes no bit of the rest.
 
-use super::recentred::{MIN_HALF_RANGE, PixelSums, Seen, is_thin, place_in_thin};
+use super::recentred::{FragmentTerms, MIN_HALF_RANGE, PixelSums, is_thin, place_in_thin};
 use super::visible::{FAINT, MIN_WEIGHT, first_hidden_depth};
 use super::wide::{Fragments, moment_depth};
-use super::{Extractor, Kind, MomentFrame, Storage};
+use super::{Extractor, Kind, MomentFrame, SumPrecision};
 use crate::numeric::lanes::{LANES, Lanes, exp};
 use crate::pixel::{FragmentList, LogWarp, absorbance_lanes};
 use fearless_simd::prelude::*;
@@ -86,7 +86,7 @@ impl Class {
 /// Rows of features that wait for the network, column by column.
 pub type Column = [f32; ROWS];
 
-/// Rows that the network is asked about at once.
+/// Rows that the network is evaluated for at once.
 pub const ROWS: usize = 256;
 
 /// Answers rows.
@@ -198,7 +198,7 @@ struct Workspace<const K: usize> {
     /// Fragments that a closed form answers.
     short: Queue<K>,
     /// Fragments that the network will answer, and those that may be hidden.
-    asked: [Queue<K>; 2],
+    evaluated: [Queue<K>; 2],
     columns: Vec<Column>,
     /// The fragment of each row, or [`DROPPED`].
     who: Vec<u32>,
@@ -263,7 +263,7 @@ impl<const K: usize> Workspace<K> {
             level: Level::new(),
             switches,
             short: Queue::new(),
-            asked: [Queue::new(), Queue::new()],
+            evaluated: [Queue::new(), Queue::new()],
             columns: vec![[0.0; ROWS]; columns],
             who: Vec::with_capacity(ROWS),
             hiding: Vec::new(),
@@ -307,7 +307,7 @@ impl<const K: usize> Workspace<K> {
         deep: bool,
     ) {
         // No branch, which nobody could predict.
-        let queue = &mut self.asked[usize::from(deep)];
+        let queue = &mut self.evaluated[usize::from(deep)];
         queue.push(
             task.view_z[fragment],
             task.z[fragment],
@@ -330,7 +330,7 @@ impl<const K: usize> Workspace<K> {
         fragment: usize,
         pixel: usize,
     ) {
-        self.asked[0].push(
+        self.evaluated[0].push(
             task.view_z[fragment],
             task.z[fragment],
             task.absorbance[fragment],
@@ -338,15 +338,15 @@ impl<const K: usize> Workspace<K> {
             DROPPED,
             pixel,
         );
-        if self.asked[0].is_full() {
+        if self.evaluated[0].is_full() {
             self.flush(false, task, network);
         }
     }
 
     /// Features of what waits and, of the deep ones, is not hidden.
     fn flush(&mut self, deep: bool, task: &mut Task<'_, K>, network: &mut impl Network) {
-        for (at, len) in self.asked[usize::from(deep)].take() {
-            let queue = &self.asked[usize::from(deep)];
+        for (at, len) in self.evaluated[usize::from(deep)].take() {
+            let queue = &self.evaluated[usize::from(deep)];
             let (columns, row) = (&mut self.columns, self.who.len());
             let mut hidden = 0;
             dispatch!(self.level, simd => hidden = describe(simd, &queue.load(simd, at / LANES), deep, columns, row));
@@ -447,11 +447,11 @@ impl<const K: usize> Workspace<K> {
         self.flush_all(task, network);
         let (level, out, class) = (self.level, &mut *task.out, &*task.class);
         dispatch!(level, simd => transmittances(simd, out, class));
-        self.doubt(task, network);
+        self.recheck_hidden(task, network);
     }
 
     /// Asks the network about hidden fragments after all where the weights of their pixel sum to too little for the bound to hold.
-    fn doubt(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    fn recheck_hidden(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
         let mut hiding = std::mem::take(&mut self.hiding);
         for &pixel in &hiding {
             let of = task.summed[pixel as usize];
@@ -465,7 +465,7 @@ impl<const K: usize> Workspace<K> {
                 for fragment in own {
                     if task.class[fragment] == Class::Hidden {
                         task.class[fragment] = Class::Network;
-                        self.asked[0].push(
+                        self.evaluated[0].push(
                             task.view_z[fragment],
                             task.z[fragment],
                             task.absorbance[fragment],
@@ -473,7 +473,7 @@ impl<const K: usize> Workspace<K> {
                             fragment as u32,
                             pixel as usize,
                         );
-                        if self.asked[0].is_full() {
+                        if self.evaluated[0].is_full() {
                             self.flush(false, task, network);
                         }
                     }
@@ -513,11 +513,11 @@ impl<const K: usize> Task<'_, K> {
     /// Pass 1.
     fn pass_1(&mut self, list: &FragmentList, warp: &LogWarp, frame: MomentFrame) {
         let (view_z, alpha, z, absorbance) = (self.view_z, self.alpha, &mut *self.z, &mut *self.absorbance);
-        dispatch!(Level::new(), simd => see(simd, warp, view_z, alpha, z, absorbance));
+        dispatch!(Level::new(), simd => transform_depths(simd, warp, view_z, alpha, z, absorbance));
         let offsets = &list.offsets()[self.pixels.start..=self.pixels.end];
         if frame == MomentFrame::Pixel {
             // The prepass, and depths in each pixel's own range.
-            dispatch!(Level::new(), simd => see_by_pixel(simd, offsets, view_z, z));
+            dispatch!(Level::new(), simd => transform_depths_by_pixel(simd, offsets, view_z, z));
         }
         self.summed.reserve_exact(self.pixels.len().min(self.z.len()));
         for of in offsets.windows(2).filter(|of| of[0] < of[1]) {
@@ -530,7 +530,7 @@ impl<const K: usize> Task<'_, K> {
                 .zip(&self.z[own.clone()])
                 .zip(&self.absorbance[own])
             {
-                sums.add(Seen { view_z, z, absorbance });
+                sums.add(FragmentTerms { view_z, z, absorbance });
                 if sums.nearest == view_z {
                     ends[0] = z;
                 }
@@ -553,7 +553,14 @@ impl<const K: usize> Task<'_, K> {
 
 /// Moment depths and absorbances.
 #[inline(always)]
-fn see<S: Simd>(simd: S, warp: &LogWarp, view_z: &[f32], alpha: &[f32], z: &mut [f32], absorbance: &mut [f32]) {
+fn transform_depths<S: Simd>(
+    simd: S,
+    warp: &LogWarp,
+    view_z: &[f32],
+    alpha: &[f32],
+    z: &mut [f32],
+    absorbance: &mut [f32],
+) {
     let chunks = view_z
         .chunks(LANES)
         .zip(alpha.chunks(LANES))
@@ -572,7 +579,7 @@ fn see<S: Simd>(simd: S, warp: &LogWarp, view_z: &[f32], alpha: &[f32], z: &mut 
 
 /// Moment depths between the nearest and the farthest fragment of every pixel; `offsets` count from those of the first.
 #[inline(always)]
-fn see_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], z: &mut [f32]) {
+fn transform_depths_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], z: &mut [f32]) {
     for of in offsets.windows(2) {
         let own = (of[0] - offsets[0]) as usize..(of[1] - offsets[0]) as usize;
         let (nearest, farthest) = view_z[own.clone()]
@@ -630,7 +637,7 @@ impl Extractor {
     /// Both passes of this feature set, where they are made for many pixels: recentred ones with moments summed in f32.
     pub fn passes(&self) -> Option<Passes> {
         match (self.kind, self.storage) {
-            (Kind::Recentred(warp), Storage::F32) => Some(Passes {
+            (Kind::Recentred(warp), SumPrecision::F32) => Some(Passes {
                 moments: self.set.moments(),
                 width: self.set.width(),
                 warp,
@@ -782,7 +789,7 @@ pub(crate) mod tests {
         FragmentList::new(offsets, view_z, alpha, Some(color)).unwrap()
     }
 
-    /// Keeps what it is asked, row by row.
+    /// Keeps the rows that it is given.
     struct Listener<'a>(&'a std::sync::Mutex<Vec<Vec<f32>>>);
 
     impl Network for Listener<'_> {
@@ -828,7 +835,7 @@ pub(crate) mod tests {
         hidden: true,
     };
 
-    /// Against [`Extractor::pixel`]: the same fragments asked; what is known to 1e-5, in pixels of four that are not thin to 1e-3, and the features of pixels that are
+    /// Against [`Extractor::pixel`]: the network is evaluated for the same fragments; what is known to 1e-5, in pixels of four that are not thin to 1e-3, and the features of pixels that are
     /// not thin to f32 rounding. Controls: the values one fragment on.
     #[test]
     fn passes_follow_the_extractor() {
@@ -836,10 +843,10 @@ pub(crate) mod tests {
             let list = pixels(&mut stream(1, 94, 0), 1500);
             let extractor = Extractor::for_list(set, &list, None, None).unwrap();
             let (out, class, tally, rows) = run(&extractor, &list, EXACT);
-            let asked: Vec<usize> = (0..list.len()).filter(|&i| class[i] == Class::Network).collect();
+            let evaluated: Vec<usize> = (0..list.len()).filter(|&i| class[i] == Class::Network).collect();
             assert_eq!(
                 (tally.rows as usize, rows.len(), tally.of(Class::Network) as usize),
-                (asked.len(), asked.len(), asked.len())
+                (evaluated.len(), evaluated.len(), evaluated.len())
             );
             assert_eq!(tally.fragments() as usize, list.len());
             let width = set.width();

@@ -5,7 +5,7 @@
 //! of μ itself, then of (1 − x²) μ, which no longer holds the two known fragments at the ends, and so on. Each spread is the variance as a share
 //! of the greatest that the mean allows, so that every feature has its range whatever the others are (canonical moments are built alike).
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 
 /// Added to b_0' before its logarithm is taken, so that a faint pixel stays finite.
 pub const ABSORBANCE_OFFSET: f32 = 0.05;
@@ -53,7 +53,7 @@ pub const DESCRIPTION: [&str; 12] = [
 ];
 
 /// Absorbance of a fragment, as the exported `nmt_absorbance` computes it.
-pub fn absorbance<R: Real>(alpha: R) -> R {
+pub fn absorbance<R: Scalar>(alpha: R) -> R {
     let c = R::from_f64;
     if alpha < c(0.03) {
         alpha * (R::ONE + alpha * (c(0.5) + alpha * (c(0.33333334) + alpha * (c(0.25) + alpha * c(0.2)))))
@@ -63,7 +63,7 @@ pub fn absorbance<R: Real>(alpha: R) -> R {
 }
 
 /// Moment depth of view depth v between v0 and v1, as the exported `nmt_moment_depth` computes it.
-pub fn moment_depth<R: Real>(v: f32, [v0, v1]: [f32; 2]) -> R {
+pub fn moment_depth<R: Scalar>(v: f32, [v0, v1]: [f32; 2]) -> R {
     if v1 > v0 {
         let [v, v0, v1] = [v, v0, v1].map(R::from_f32);
         let two = R::from_f64(2.0);
@@ -79,7 +79,7 @@ pub fn moment_depth<R: Real>(v: f32, [v0, v1]: [f32; 2]) -> R {
 
 /// ln(a/b), as accurate relative to itself where a is near b as elsewhere: a quotient near 1 keeps little of what made it differ from 1, and devices' logarithms are
 /// coarse there.
-fn log_ratio<R: Real>(a: R, b: R) -> R {
+fn log_ratio<R: Scalar>(a: R, b: R) -> R {
     // ln(a/b) = 2 artanh(s)
     let s = (a - b) / (a + b);
     if s.abs() < R::from_f64(0.2) {
@@ -109,7 +109,7 @@ pub struct PixelSums<R, const K: usize> {
     pub farthest: f32,
 }
 
-impl<R: Real, const K: usize> Default for PixelSums<R, K> {
+impl<R: Scalar, const K: usize> Default for PixelSums<R, K> {
     fn default() -> Self {
         Self {
             b0: R::ZERO,
@@ -123,7 +123,7 @@ impl<R: Real, const K: usize> Default for PixelSums<R, K> {
 
 /// A fragment as both passes see it.
 #[derive(Debug, Clone, Copy)]
-pub struct Seen<R> {
+pub struct FragmentTerms<R> {
     /// View depth, as the depth range keeps it.
     pub view_z: f32,
     /// Moment depth.
@@ -132,7 +132,7 @@ pub struct Seen<R> {
     pub absorbance: R,
 }
 
-impl<R: Real> Seen<R> {
+impl<R: Scalar> FragmentTerms<R> {
     /// What the fragment adds to b_1..b_K; pass 2 takes away the same numbers.
     fn moments<const K: usize>(&self) -> [R; K] {
         let mut term = self.absorbance;
@@ -152,7 +152,7 @@ pub struct Rounding<R> {
     pub every_addition: bool,
 }
 
-impl<R: Real> Rounding<R> {
+impl<R: Scalar> Rounding<R> {
     /// Of sums in the arithmetic R itself.
     pub fn of_arithmetic() -> Self {
         Self {
@@ -176,11 +176,11 @@ impl<R: Real> Rounding<R> {
 
 /// What pass 2 knows of a fragment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Known<R, const K: usize> {
+pub enum Pass2Input<R, const K: usize> {
     /// Its transmittance, without a network.
-    Transmittance(R),
+    Solved(R),
     /// Features for the network: x, count, ln_b0, then mean and spread by turns.
-    Features([R; 3], [R; K]),
+    Query([R; 3], [R; K]),
 }
 
 /// Least half-range of a pixel in moment depth; f32 hardly tells nearer depths apart.
@@ -192,16 +192,16 @@ pub const MAX_ABSORBANCE: f64 = 1e30;
 /// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what the expansion leaves out is 1e-5 of the range.
 pub const THIN: f64 = 0.01;
 
-impl<R: Real, const K: usize> PixelSums<R, K> {
+impl<R: Scalar, const K: usize> PixelSums<R, K> {
     /// Pass 1: adds a fragment.
-    pub fn add(&mut self, seen: Seen<R>) {
-        self.b0 += seen.absorbance;
-        for (b, term) in self.b.iter_mut().zip(seen.moments::<K>()) {
+    pub fn add(&mut self, terms: FragmentTerms<R>) {
+        self.b0 += terms.absorbance;
+        for (b, term) in self.b.iter_mut().zip(terms.moments::<K>()) {
             *b += term;
         }
         self.count += 1;
-        self.nearest = self.nearest.min(seen.view_z);
-        self.farthest = self.farthest.max(seen.view_z);
+        self.nearest = self.nearest.min(terms.view_z);
+        self.farthest = self.farthest.max(terms.view_z);
     }
 
     /// Pass 2: the exact rules, the closed forms, and where they end the features.
@@ -211,57 +211,57 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
     /// # Domain
     /// A fragment that pass 1 has added. Whatever rounding has done to the sums, the answer is in [0, 1] and the features are finite and within
     /// their ranges.
-    pub fn look(&self, seen: Seen<R>, ends: [R; 2]) -> Known<R, K> {
-        self.look_at_stored(seen, ends, Rounding::of_arithmetic())
+    pub fn classify(&self, terms: FragmentTerms<R>, ends: [R; 2]) -> Pass2Input<R, K> {
+        self.classify_stored(terms, ends, Rounding::of_arithmetic())
     }
 
-    /// [`Self::look`] at sums that storage has rounded more than the arithmetic would.
-    pub fn look_at_stored(&self, seen: Seen<R>, ends: [R; 2], rounding: Rounding<R>) -> Known<R, K> {
-        let others = clamp(self.b0 - seen.absorbance, R::ZERO, R::from_f64(MAX_ABSORBANCE));
-        if seen.view_z == self.nearest || others <= R::from_f64(1e-6) * self.b0 {
-            return Known::Transmittance(R::ONE);
+    /// [`Self::classify`] at sums that storage has rounded more than the arithmetic would.
+    pub fn classify_stored(&self, terms: FragmentTerms<R>, ends: [R; 2], rounding: Rounding<R>) -> Pass2Input<R, K> {
+        let others = clamp(self.b0 - terms.absorbance, R::ZERO, R::from_f64(MAX_ABSORBANCE));
+        if terms.view_z == self.nearest || others <= R::from_f64(1e-6) * self.b0 {
+            return Pass2Input::Solved(R::ONE);
         }
-        if seen.view_z == self.farthest {
-            return Known::Transmittance(transmittance(others));
+        if terms.view_z == self.farthest {
+            return Pass2Input::Solved(transmittance(others));
         }
         let half = R::from_f64(0.5);
         let (c, h) = (
             half * (ends[0] + ends[1]),
             (half * (ends[1] - ends[0])).max(R::from_f64(MIN_HALF_RANGE)),
         );
-        let m = self.recentred(seen, others, c, h);
-        let (e1, reach) = self.rounding(rounding.unit, others, c, h);
+        let m = self.recentred(terms, others, c, h);
+        let (moment_noise, noise_growth) = self.rounding(rounding.unit, others, c, h);
         let n = R::from_f64(f64::from(self.count));
         let usual = rounding.usual(n);
-        let (measure, doubt) = describe(&m, n, e1, usual, reach);
+        let (measure, transition_width) = describe(&m, n, moment_noise, usual, noise_growth);
         if self.count == 3 {
             // The other two are the ends; their mean says how they share.
-            return Known::Transmittance(transmittance(others * clamp(half - half * measure[0], R::ZERO, R::ONE)));
+            return Pass2Input::Solved(transmittance(others * clamp(half - half * measure[0], R::ZERO, R::ONE)));
         }
-        let x = self.place(seen, c, h);
+        let x = self.place(terms, c, h);
         if self.count == 4 && K >= 3 {
-            return Known::Transmittance(transmittance(
-                others * share_of_four(x, [measure[0], measure[1], measure[2]], doubt),
+            return Pass2Input::Solved(transmittance(
+                others * share_of_four(x, [measure[0], measure[1], measure[2]], transition_width),
             ));
         }
         // log2(n)/3 − 1
         let count = n.ln() * R::from_f64(std::f64::consts::LOG2_E / 3.0) - R::ONE;
-        Known::Features([x, count, (others + R::from_f32(ABSORBANCE_OFFSET)).ln()], measure)
+        Pass2Input::Query([x, count, (others + R::from_f32(ABSORBANCE_OFFSET)).ln()], measure)
     }
 
     /// Place of a fragment in its pixel's range, in [−1, 1]. In thin pixels that of its view depth, of which more is known than of its moment depth.
-    fn place(&self, seen: Seen<R>, c: R, h: R) -> R {
-        let [v, nearest, farthest] = [seen.view_z, self.nearest, self.farthest].map(R::from_f32);
+    fn place(&self, terms: FragmentTerms<R>, c: R, h: R) -> R {
+        let [v, nearest, farthest] = [terms.view_z, self.nearest, self.farthest].map(R::from_f32);
         if is_thin(nearest, farthest) {
             place_in_thin(v, nearest, farthest)
         } else {
-            clamp((seen.z - c) / h, -R::ONE, R::ONE)
+            clamp((terms.z - c) / h, -R::ONE, R::ONE)
         }
     }
 
     /// m_1..m_K of the other fragments, in [−1, 1] whatever rounding has done.
-    fn recentred(&self, seen: Seen<R>, others: R, c: R, h: R) -> [R; K] {
-        let own = seen.moments::<K>();
+    fn recentred(&self, terms: FragmentTerms<R>, others: R, c: R, h: R) -> [R; K] {
+        let own = terms.moments::<K>();
         let per_b0 = R::ONE / others;
         let mut m: [R; K] = std::array::from_fn(|k| (self.b[k] - own[k]) * per_b0);
         // Moments of z − c, one factor at a time: E[z^{k−j} (z − c)^j] = E[z^{k−j+1} (z − c)^{j−1}] − c E[z^{k−j} (z − c)^{j−1}].
@@ -288,8 +288,8 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
 
     /// What one rounding may have done to m_1, and the factor by which it does more to each next moment: a unit of b_0, carried through the shift and the scale.
     fn rounding(&self, unit: R, others: R, c: R, h: R) -> (R, R) {
-        let reach = R::ONE + (c.abs() + c.abs()) / h;
-        (unit * reach * self.b0 / others, reach)
+        let noise_growth = R::ONE + (c.abs() + c.abs()) / h;
+        (unit * noise_growth * self.b0 / others, noise_growth)
     }
 }
 
@@ -297,9 +297,9 @@ impl<R: Real, const K: usize> PixelSums<R, K> {
 ///
 /// The nearest and the farthest are known atoms at −1 and 1; (1 − x²) μ holds the third alone, so its place u is the inner mean. With (1 − m_2) = (1 − u²) a for its
 /// mass a, the ends weigh (1 ∓ m_1 − (1 − m_2)/(1 ± u))/2. In front lie the near end and, where it is nearer than x, the third: all but the far end then, which says the
-/// same and is well conditioned where the near end is not. Rounding leaves u in doubt; so much to either side of it the one goes over to the other, and as mean, spread and inner mean
+/// same and is well conditioned where the near end is not. Rounding leaves u uncertain by the transition width; so much to either side of it the one goes over to the other, and as mean, spread and inner mean
 /// fade to what is expected, so does the share: it is continuous in the moments.
-fn share_of_four<R: Real>(x: R, [mean, spread, u]: [R; 3], doubt: R) -> R {
+fn share_of_four<R: Scalar>(x: R, [mean, spread, u]: [R; 3], transition_width: R) -> R {
     let (half, least) = (R::from_f64(0.5), R::from_f64(MIN_MASS));
     // 1 − m_2
     let inner = (R::ONE - spread) * (R::ONE - mean * mean);
@@ -313,7 +313,7 @@ fn share_of_four<R: Real>(x: R, [mean, spread, u]: [R; 3], doubt: R) -> R {
         R::ZERO,
         R::ONE,
     );
-    let behind = clamp(half + half * (x - u) / doubt, R::ZERO, R::ONE);
+    let behind = clamp(half + half * (x - u) / transition_width, R::ZERO, R::ONE);
     clamp(near + behind * (R::ONE - far - near), R::ZERO, R::ONE)
 }
 
@@ -342,7 +342,7 @@ pub struct ByCount {
 }
 
 impl ByCount {
-    fn of<R: Real>(self, per_n: R) -> R {
+    fn of<R: Scalar>(self, per_n: R) -> R {
         R::from_f64(self.many) + R::from_f64(self.few) * per_n
     }
 }
@@ -372,12 +372,12 @@ pub const INNER_SPREAD_OF_OFFSET: f64 = 1.2;
 pub const INNER_SPREAD_DEVIATION: ByCount = ByCount { many: 0.12, few: 1.4 };
 
 /// Whether the range of a pixel is so small that places in it are those of view depth.
-pub fn is_thin<R: Real>(nearest: R, farthest: R) -> bool {
+pub fn is_thin<R: Scalar>(nearest: R, farthest: R) -> bool {
     (farthest - nearest) / nearest < R::from_f64(THIN)
 }
 
 /// Place of a view depth between the nearest and the farthest of a thin pixel, in [−1, 1].
-pub fn place_in_thin<R: Real>(v: R, nearest: R, farthest: R) -> R {
+pub fn place_in_thin<R: Scalar>(v: R, nearest: R, farthest: R) -> R {
     let range = farthest - nearest;
     let t = (v - nearest) / range;
     // ln(1 + r t)/ln(1 + r) to the first order in r = range/nearest
@@ -392,33 +392,33 @@ pub fn place_in_thin<R: Real>(v: R, nearest: R, farthest: R) -> R {
 /// to 0. So a pixel that is ever thinner for its storage is described by four moments, then by two, then by its mean, without a jump. From the fifth moment on a mean
 /// goes to 0 and a spread to ½.
 ///
-/// e1 is what one rounding may have done to the first moment, `usual` how much of that rounding usually does, `reach` how much more it does to each next moment. Beside the
+/// moment_noise is what one rounding may have done to the first moment, `usual` how much of that rounding usually does, `noise_growth` how much more it does to each next moment. Beside the
 /// features stands how far the inner mean may usually be off, by noise or, where that is more than is known anyhow, by what it differs from pixel to pixel.
-fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R) -> ([R; K], R) {
+fn describe<R: Scalar, const K: usize>(m: &[R; K], n: R, moment_noise: R, usual: R, noise_growth: R) -> ([R; K], R) {
     let c = R::from_f64;
     let per_n = R::ONE / n;
     let mut q = [R::ONE; 9];
     q[1..=K].copy_from_slice(m);
     let least = c(MIN_MASS);
     let mut out = [R::ZERO; K];
-    let further = reach * c(NOISE_GROWTH);
-    let noise1 = e1 * usual;
+    let further = noise_growth * c(NOISE_GROWTH);
+    let noise1 = moment_noise * usual;
     let noise2 = noise1 * further;
     let noise3 = noise2 * further;
     let noise4 = noise3 * further;
-    let (mut mean0, mut spread0, mut doubt) = (R::ZERO, R::ZERO, R::ONE);
+    let (mut mean0, mut spread0, mut transition_width) = (R::ZERO, R::ZERO, R::ONE);
     for (level, out) in out.chunks_exact_mut(2).enumerate() {
         let last = K - 2 * level;
         let per_mass = R::ONE / q[0].max(least);
         let mut mean = clamp(q[1] * per_mass, -R::ONE, R::ONE);
         match level {
-            0 => mean = shrunk(mean, R::ZERO, noise1, MEAN_DEVIATION.of(per_n)),
+            0 => mean = shrink_to_prior(mean, R::ZERO, noise1, MEAN_DEVIATION.of(per_n)),
             1 => {
                 let deviation = INNER_MEAN_DEVIATION.of(per_n) * (spread0 + c(0.02));
                 let noise = noise3 * per_mass;
                 let all = noise + c(ARITHMETIC) * R::EPSILON * per_mass;
-                doubt = all * deviation / (all + deviation);
-                mean = shrunk(mean, mean0 * (R::ONE - spread0) / (R::ONE + spread0), noise, deviation);
+                transition_width = all * deviation / (all + deviation);
+                mean = shrink_to_prior(mean, mean0 * (R::ONE - spread0) / (R::ONE + spread0), noise, deviation);
             }
             _ => {}
         }
@@ -426,7 +426,7 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
         let mut spread = clamp((q[2] * per_mass - mean * mean) / most, R::ZERO, R::ONE);
         match level {
             0 => {
-                spread = shrunk(
+                spread = shrink_to_prior(
                     spread,
                     USUAL_SPREAD.of(per_n),
                     noise2 / most,
@@ -441,13 +441,13 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
                 let usual = USUAL_INNER_SPREAD.of(per_n) + c(INNER_SPREAD_OF_SPREAD) * square * square
                     - c(INNER_SPREAD_OF_OFFSET) * offset * offset;
                 let expected = clamp(usual * spread0 / (R::ONE + spread0 + spread0), R::ZERO, R::ONE);
-                spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
+                spread = shrink_to_prior(spread, expected, noise4 * per_mass / most, deviation).sqrt();
             }
             _ => {
                 spread = spread.sqrt();
                 let half = c(0.5);
                 let trust = |moment: usize| {
-                    let noise = (1..moment).fold(e1, |e, _| e * reach) * per_mass;
+                    let noise = (1..moment).fold(moment_noise, |e, _| e * noise_growth) * per_mass;
                     R::ONE / (R::ONE + noise * noise)
                 };
                 mean *= trust(2 * level + 1);
@@ -460,22 +460,22 @@ fn describe<R: Real, const K: usize>(m: &[R; K], n: R, e1: R, usual: R, reach: R
             q[k] -= beyond;
         }
     }
-    (out, doubt)
+    (out, transition_width)
 }
 
 /// What is best thought of a quantity: its value, or as the noise in it grows beyond its usual deviation what is expected of it.
-fn shrunk<R: Real>(value: R, expected: R, noise: R, deviation: R) -> R {
+fn shrink_to_prior<R: Scalar>(value: R, expected: R, noise: R, deviation: R) -> R {
     let trust = deviation * deviation;
     expected + (value - expected) * (trust / (trust + noise * noise))
 }
 
 /// e^−A, never above 1 however coarse the exponential.
-fn transmittance<R: Real>(absorbance: R) -> R {
+fn transmittance<R: Scalar>(absorbance: R) -> R {
     (-absorbance).exp().min(R::ONE)
 }
 
 /// NaN becomes the lower end.
-fn clamp<R: Real>(x: R, low: R, high: R) -> R {
+fn clamp<R: Scalar>(x: R, low: R, high: R) -> R {
     x.max(low).min(high)
 }
 
@@ -541,20 +541,20 @@ mod tests {
             out
         }
 
-        fn look<R: Real, const K: usize>(&self) -> Vec<Known<R, K>> {
+        fn classify<R: Scalar, const K: usize>(&self) -> Vec<Pass2Input<R, K>> {
             let keys = self.keys();
-            let seen: Vec<Seen<R>> = (0..keys.len())
-                .map(|i| Seen {
+            let terms: Vec<FragmentTerms<R>> = (0..keys.len())
+                .map(|i| FragmentTerms {
                     view_z: keys[i],
                     z: R::from_f64(self.z[i]),
                     absorbance: R::from_f64(absorbance(self.alpha[i])),
                 })
                 .collect();
             let mut sums = PixelSums::<R, K>::default();
-            seen.iter().for_each(|&s| sums.add(s));
-            let end = |key: f32| seen.iter().find(|s| s.view_z == key).unwrap().z;
+            terms.iter().for_each(|&s| sums.add(s));
+            let end = |key: f32| terms.iter().find(|s| s.view_z == key).unwrap().z;
             let ends = [end(sums.nearest), end(sums.farthest)];
-            seen.iter().map(|&s| sums.look(s, ends)).collect()
+            terms.iter().map(|&s| sums.classify(s, ends)).collect()
         }
     }
 
@@ -567,8 +567,8 @@ mod tests {
             let half = 10f64.powf(rng.random_range(-2.0..0.0));
             let case = Case::random(&mut rng, 1 + i % 3, half, 1e-3);
             let exact = case.exact();
-            for (known, &t) in case.look::<f64, 4>().into_iter().zip(&exact) {
-                let Known::Transmittance(found) = known else {
+            for (known, &t) in case.classify::<f64, 4>().into_iter().zip(&exact) {
+                let Pass2Input::Solved(found) = known else {
                     panic!("{} fragments need no network", exact.len())
                 };
                 assert!((found - t).abs() <= 1e-9, "{found} for {t}");
@@ -583,13 +583,13 @@ mod tests {
     }
 
     /// Worst and mean squared error of the closed form of four fragments.
-    fn four<R: Real>(half: f64, least_gap: f64, cases: usize) -> (f64, f64) {
+    fn four<R: Scalar>(half: f64, least_gap: f64, cases: usize) -> (f64, f64) {
         let mut rng = stream(2, 90, 0);
         let (mut worst, mut sum) = (0.0f64, 0.0);
         for _ in 0..cases {
             let case = Case::random(&mut rng, 4, half, least_gap);
-            for (known, t) in case.look::<R, 4>().into_iter().zip(case.exact()) {
-                let Known::Transmittance(found) = known else {
+            for (known, t) in case.classify::<R, 4>().into_iter().zip(case.exact()) {
+                let Pass2Input::Solved(found) = known else {
                     panic!("four fragments need no network")
                 };
                 let e = (found.to_f64() - t).abs();
@@ -626,8 +626,8 @@ mod tests {
         for _ in 0..4000 {
             let half = 10f64.powf(rng.random_range(-3.0..-0.3));
             let case = Case::random(&mut rng, 4, half, 1e-3);
-            let exact: Vec<Seen<f64>> = (0..4)
-                .map(|i| Seen {
+            let exact: Vec<FragmentTerms<f64>> = (0..4)
+                .map(|i| FragmentTerms {
                     view_z: case.keys()[i],
                     z: case.z[i],
                     absorbance: absorbance(case.alpha[i]),
@@ -638,7 +638,7 @@ mod tests {
             let middle = exact.iter().find(|s| s.view_z == 2.0).copied().unwrap();
             let end = |key: f32| exact.iter().find(|s| s.view_z == key).unwrap().z;
             let ends = [end(sums.nearest), end(sums.farthest)];
-            let t = |sums: &PixelSums<f64, 4>| match sums.look_at_stored(
+            let t = |sums: &PixelSums<f64, 4>| match sums.classify_stored(
                 middle,
                 ends,
                 Rounding {
@@ -646,8 +646,8 @@ mod tests {
                     every_addition: true,
                 },
             ) {
-                Known::Transmittance(t) => t,
-                Known::Features(..) => f64::NAN,
+                Pass2Input::Solved(t) => t,
+                Pass2Input::Query(..) => f64::NAN,
             };
             let before = t(&sums);
             // A hundredth of a rounding of f32.
@@ -673,8 +673,8 @@ mod tests {
                 let n = rng.random_range(5..40);
                 let case = Case::random(&mut rng, n, 0.3, 0.0);
                 let (lo, hi) = case.z.iter().fold((1.0f64, -1.0f64), |(l, h), &z| (l.min(z), h.max(z)));
-                for (i, known) in case.look::<f64, K>().into_iter().enumerate() {
-                    let Known::Features([x, count, ln_b0], measure) = known else {
+                for (i, known) in case.classify::<f64, K>().into_iter().enumerate() {
+                    let Pass2Input::Query([x, count, ln_b0], measure) = known else {
                         continue;
                     };
                     let own_x = |z: f64| (2.0 * z - lo - hi) / (hi - lo);
@@ -731,15 +731,15 @@ mod tests {
                 nearest: 1.0,
                 farthest: 2.0,
             };
-            let seen = Seen {
+            let terms = FragmentTerms {
                 view_z: 1.5,
                 z: pick().clamp(-1.0, 1.0),
                 absorbance: pick().abs().min(10.0),
             };
             let end = pick().clamp(-1.0, 1.0);
-            match sums.look(seen, [end, (end + pick().abs()).min(1.0)]) {
-                Known::Transmittance(t) => assert!((0.0..=1.0).contains(&t), "{t}"),
-                Known::Features([x, count, ln_b0], measure) => {
+            match sums.classify(terms, [end, (end + pick().abs()).min(1.0)]) {
+                Pass2Input::Solved(t) => assert!((0.0..=1.0).contains(&t), "{t}"),
+                Pass2Input::Query([x, count, ln_b0], measure) => {
                     assert!((-1.0..=1.0).contains(&x) && count.is_finite() && ln_b0.is_finite());
                     assert!(measure.iter().all(|m| (-1.0..=1.0).contains(m)), "{measure:?}");
                 }

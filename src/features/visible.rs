@@ -30,7 +30,7 @@
 //! absorbances there sum to b_0 P at most, and without the ends there are n − 2 fragments at most. So a shader that goes through a pixel's list looks for one depth and compares fragments with it.
 //! What cannot go back has less: U is at least the opacity of the nearest fragment, whose answer is 1, so that the bound holds without condition where that is 1/2 or more.
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 
 /// Greatest b_0 of a pixel that needs no network.
 pub const FAINT: f32 = 1.0 / 16.0;
@@ -50,27 +50,27 @@ pub const ORDER: f64 = 2e-6;
 /// How far rounding may have moved what the bounds are made of.
 #[derive(Debug, Clone, Copy)]
 pub struct Noise<R> {
-    /// Error of m_k divided by reach^k.
+    /// Error of m_k divided by noise_growth^k.
     pub moments: R,
     /// How much more rounding does to each next moment: 1 + 2|c|/h.
-    pub reach: R,
+    pub noise_growth: R,
     /// Error of positions in the pixel's range.
     pub position: R,
     /// Error of an optical depth.
     pub depth: R,
 }
 
-impl<R: Real> Noise<R> {
+impl<R: Scalar> Noise<R> {
     /// Of a pixel with `count` fragments in [c − h, c + h] that absorb b_0, all but b_0' of it the fragment's own; sums in the precision R.
     ///
     /// Adding n terms one after the other leaves each sum within n roundings of Σ |A z^k| ≤ b_0 (|c| + h)^k; the shift by c and the scale by 1/h turn that into
-    /// reach^k of b_0, and division by b_0' into a share. Sixteen roundings more cover the shift, the scale and the bound itself.
+    /// noise_growth^k of b_0, and division by b_0' into a share. Sixteen roundings more cover the shift, the scale and the bound itself.
     pub fn of(count: u32, b0: R, others: R, c: R, h: R) -> Self {
         let n = R::from_f64(f64::from(count));
         let two = R::from_f64(2.0);
         Self {
             moments: (n + R::from_f64(16.0)) * R::EPSILON * b0 / others,
-            reach: R::ONE + two * c.abs() / h,
+            noise_growth: R::ONE + two * c.abs() / h,
             position: R::from_f64(ORDER) / h,
             depth: (n + R::from_f64(4.0)) * R::EPSILON * b0 + R::from_f64(1e-5),
         }
@@ -84,12 +84,12 @@ impl<R: Real> Noise<R> {
 /// ((t − r)/(x − r))² with Cantelli's r < x; and (E + t)(t − r)² (1 − γ(t − x)) over its value at x, γ such that it comes back to 1 at the range's end E: with its only
 /// zeros −E, r twice and one beyond E, it rises and falls once between r and there, and so stays above 1 between x and E. Its r is the inner atom of the
 /// measure with the same moments on −1, r, x and 1, where there is one; any r < x is valid.
-pub fn most_behind<R: Real>(x: R, m: [R; 4], noise: &Noise<R>) -> R {
+pub fn most_behind<R: Scalar>(x: R, m: [R; 4], noise: &Noise<R>) -> R {
     let (one, two) = (R::ONE, R::from_f64(2.0));
     let margin = R::from_f64(1e-5);
     let end = one + noise.position;
     let x = x.min(one).max(-one) - noise.position;
-    let rho = noise.reach;
+    let rho = noise.noise_growth;
     let square = |v: R| v * v;
     // Cantelli.
     let ahead = x - m[0];
@@ -124,7 +124,7 @@ pub fn most_behind<R: Real>(x: R, m: [R; 4], noise: &Noise<R>) -> R {
 
 /// Moment depth from which on one looks for hidden fragments: with b_0 the pixel's absorbance and V its variance, that at which
 /// (z − mean)² (b_0 − 5) = 5 V, where Cantelli leaves e^−5 or so. In front of it the bounds would find few more; infinity where b_0 ≤ [`MIN_HIDING`].
-pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
+pub fn first_hidden_depth<R: Scalar>(b0: R, b1: R, b2: R) -> R {
     let least = R::from_f32(MIN_HIDING);
     if b0 <= least {
         return R::from_f32(f32::INFINITY);
@@ -134,14 +134,14 @@ pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
 
 /// The most that the hidden fragments of a pixel may weigh, Σ a T, if this one at [`first_hidden_depth`] or behind is the nearest of them: `others` is b_0', `absorbance`
 /// its own, `count` the pixel's n, `behind` what [`most_behind`] says.
-pub fn hidden_weight<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> R {
+pub fn hidden_weight<R: Scalar>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> R {
     let least_depth = others * (R::ONE - behind) - noise.depth;
     let beta = others * behind + absorbance;
     (-least_depth).exp() * beta.min(R::from_f64(f64::from(count) - 2.0))
 }
 
 /// Whether a fragment at [`first_hidden_depth`] or behind is hidden; see [`hidden_weight`].
-pub fn is_hidden<R: Real>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
+pub fn is_hidden<R: Scalar>(others: R, absorbance: R, count: u32, behind: R, noise: &Noise<R>) -> bool {
     hidden_weight(others, absorbance, count, behind, noise) <= R::from_f32(HIDDEN)
 }
 
@@ -178,14 +178,14 @@ mod tests {
         atoms
     }
 
-    fn moments<R: Real>(atoms: &[(f64, f64)]) -> [R; 4] {
+    fn moments<R: Scalar>(atoms: &[(f64, f64)]) -> [R; 4] {
         std::array::from_fn(|k| R::from_f64(atoms.iter().map(|&(x, a)| a * x.powi(k as i32 + 1)).sum()))
     }
 
-    fn no_noise<R: Real>() -> Noise<R> {
+    fn no_noise<R: Scalar>() -> Noise<R> {
         Noise {
             moments: R::from_f64(16.0) * R::EPSILON,
-            reach: R::ONE,
+            noise_growth: R::ONE,
             position: R::from_f64(1e-6),
             depth: R::ZERO,
         }
@@ -241,7 +241,7 @@ mod tests {
             for b in odd {
                 let noise = Noise {
                     moments: a,
-                    reach: b,
+                    noise_growth: b,
                     ..no_noise()
                 };
                 let bound = most_behind::<f32>(0.5, [a, b, a, b], &noise);

@@ -41,7 +41,7 @@ pub struct Described<S: Simd, const K: usize> {
     /// Moments of the others there.
     pub m: [f32x16<S>; K],
     /// How much more rounding does to each next moment.
-    pub reach: f32x16<S>,
+    pub noise_growth: f32x16<S>,
 }
 
 #[inline(always)]
@@ -57,7 +57,12 @@ fn by_count<S: Simd>(simd: S, quantity: ByCount, per_n: f32x16<S>) -> f32x16<S> 
 
 /// What is best thought of a quantity; see the function of this name beside [`PixelSums`](super::recentred::PixelSums).
 #[inline(always)]
-fn shrunk<S: Simd>(value: f32x16<S>, expected: f32x16<S>, noise: f32x16<S>, deviation: f32x16<S>) -> f32x16<S> {
+fn shrink_to_prior<S: Simd>(
+    value: f32x16<S>,
+    expected: f32x16<S>,
+    noise: f32x16<S>,
+    deviation: f32x16<S>,
+) -> f32x16<S> {
     let trust = square(deviation);
     expected + (value - expected) * (trust / (trust + square(noise)))
 }
@@ -118,14 +123,19 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
             *m = clamp(scaled, -one, one);
         }
         let x = clamp((self.z - self.c) * h1, -one, one);
-        let reach = one + (self.c.abs() + self.c.abs()) * h1;
-        Described { others, x, m, reach }
+        let noise_growth = one + (self.c.abs() + self.c.abs()) * h1;
+        Described {
+            others,
+            x,
+            m,
+            noise_growth,
+        }
     }
 
     /// What rounding may have done to m_1.
     #[inline(always)]
     fn rounding(&self, simd: S, d: &Described<S, K>) -> f32x16<S> {
-        f32x16::splat(simd, f32::EPSILON) * d.reach * self.b0 / d.others
+        f32x16::splat(simd, f32::EPSILON) * d.noise_growth * self.b0 / d.others
     }
 
     /// What rounding usually has done to m_1.
@@ -139,7 +149,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
     pub fn closed_form(&self, simd: S, d: &Described<S, K>) -> f32x16<S> {
         let splat = |v: f32| f32x16::splat(simd, v);
         let (zero, half, one) = (splat(0.0), splat(0.5), splat(1.0));
-        let (measure, doubt) = self.measure(simd, d);
+        let (measure, transition_width) = self.measure(simd, d);
         let [mean, spread, u] = [measure[0], measure[1], measure[2]];
         let of_three = clamp(half - half * mean, zero, one);
         // share_of_four
@@ -147,7 +157,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let inner = (one - spread) * (one - mean * mean);
         let near = clamp(half * (one - mean - inner / (one + u).max(least)), zero, one);
         let far = clamp(half * (one + mean - inner / (one - u).max(least)), zero, one);
-        let behind = clamp(half + half * (self.position(simd, d) - u) / doubt, zero, one);
+        let behind = clamp(half + half * (self.position(simd, d) - u) / transition_width, zero, one);
         let of_four = clamp(near + behind * (one - far - near), zero, one);
         d.others * self.count.simd_eq(splat(3.0)).select(of_three, of_four)
     }
@@ -177,24 +187,24 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         q[1..=K].copy_from_slice(&d.m);
         let mut out = [zero; K];
         let per_n = one / self.count;
-        let further = d.reach * splat(NOISE_GROWTH as f32);
+        let further = d.noise_growth * splat(NOISE_GROWTH as f32);
         let noise1 = self.noise(simd, d);
         let noise2 = noise1 * further;
         let noise3 = noise2 * further;
         let noise4 = noise3 * further;
-        let (mut mean0, mut spread0, mut doubt) = (zero, zero, one);
+        let (mut mean0, mut spread0, mut transition_width) = (zero, zero, one);
         for level in 0..K / 2 {
             let last = K - 2 * level;
             let per_mass = one / q[0].max(least);
             let mut mean = clamp(q[1] * per_mass, -one, one);
             match level {
-                0 => mean = shrunk(mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
+                0 => mean = shrink_to_prior(mean, zero, noise1, by_count(simd, MEAN_DEVIATION, per_n)),
                 1 => {
                     let deviation = by_count(simd, INNER_MEAN_DEVIATION, per_n) * (spread0 + splat(0.02));
                     let noise = noise3 * per_mass;
                     let all = noise + splat(ARITHMETIC as f32 * f32::EPSILON) * per_mass;
-                    doubt = all * deviation / (all + deviation);
-                    mean = shrunk(mean, mean0 * (one - spread0) / (one + spread0), noise, deviation);
+                    transition_width = all * deviation / (all + deviation);
+                    mean = shrink_to_prior(mean, mean0 * (one - spread0) / (one + spread0), noise, deviation);
                 }
                 _ => {}
             }
@@ -203,7 +213,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
             match level {
                 0 => {
                     let expected = by_count(simd, USUAL_SPREAD, per_n);
-                    spread = shrunk(spread, expected, noise2 / most, by_count(simd, SPREAD_DEVIATION, per_n));
+                    spread = shrink_to_prior(spread, expected, noise2 / most, by_count(simd, SPREAD_DEVIATION, per_n));
                     (mean0, spread0) = (mean, spread);
                 }
                 1 => {
@@ -213,16 +223,16 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                         + splat(INNER_SPREAD_OF_SPREAD as f32) * square(square(spread0))
                         - splat(INNER_SPREAD_OF_OFFSET as f32) * square(offset);
                     let expected = clamp(usual * spread0 / (one + spread0 + spread0), zero, one);
-                    spread = shrunk(spread, expected, noise4 * per_mass / most, deviation).sqrt();
+                    spread = shrink_to_prior(spread, expected, noise4 * per_mass / most, deviation).sqrt();
                 }
                 _ => {
                     spread = spread.sqrt();
                     let mut noise = self.rounding(simd, d) * per_mass;
                     for _ in 1..2 * level + 1 {
-                        noise *= d.reach;
+                        noise *= d.noise_growth;
                     }
                     mean *= one / (one + noise * noise);
-                    noise *= d.reach;
+                    noise *= d.noise_growth;
                     spread = half + (spread - half) * (one / (one + noise * noise));
                 }
             }
@@ -233,7 +243,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
                 q[k] -= beyond;
             }
         }
-        (out, doubt)
+        (out, transition_width)
     }
 
     /// Which of these fragments, if they lie deep enough to be looked at, are hidden.
@@ -249,7 +259,7 @@ impl<S: Simd, const K: usize> Fragments<S, K> {
         let margin = splat(1e-5);
         let end = one + position;
         let x = d.x - position;
-        let (rho, m) = (d.reach, &d.m);
+        let (rho, m) = (d.noise_growth, &d.m);
         let ahead = x - m[0];
         let variance = (m[1] - m[0] * m[0]).max(zero);
         let r = m[0] - variance / ahead;

@@ -10,7 +10,7 @@
 //! | 2 | Σ a w C and Σ a w | add |
 //! | resolve | colour | none |
 //!
-//! Where f32 targets cannot be blended into, [`Storage::Half`] keeps sums as f16 and both ends of the range in depth buffers, a draw each.
+//! Where f32 targets cannot be blended into, [`TargetPrecision::Half`] keeps sums as f16 and both ends of the range in depth buffers, a draw each.
 
 use super::device::{Gpu, GpuError, Stamps};
 use super::method::{Composite, MethodShader};
@@ -23,7 +23,7 @@ const NOTHING: f64 = -3.0e38;
 
 /// How sums are stored between the passes. Both ends of a pixel's range are f32 in any case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Storage {
+pub enum TargetPrecision {
     /// All f32; blending needs the feature `float32-blendable`.
     #[default]
     Full,
@@ -37,7 +37,7 @@ pub enum Storage {
     Half,
 }
 
-impl Storage {
+impl TargetPrecision {
     /// Every one.
     pub const ALL: [Self; 3] = [Self::Full, Self::HalfColor, Self::Half];
 
@@ -115,9 +115,9 @@ pub enum Holds {
 
 impl Target {
     /// The targets that a method needs.
-    pub fn of(method: &MethodShader, storage: Storage) -> Vec<Self> {
+    pub fn of(method: &MethodShader, storage: TargetPrecision) -> Vec<Self> {
         let numbers = method.sums + usize::from(method.range);
-        let half = storage == Storage::Half;
+        let half = storage == TargetPrecision::Half;
         let mut targets: Vec<Self> = (0..numbers)
             .step_by(4)
             .map(|first| {
@@ -260,7 +260,7 @@ pub(super) fn composite(composite: Composite) -> &'static str {
 
 impl Shaders {
     /// Shader source for a method on a device with these limits.
-    pub fn new(method: &MethodShader, storage: Storage, limits: Limits) -> Self {
+    pub fn new(method: &MethodShader, storage: TargetPrecision, limits: Limits) -> Self {
         let targets = Target::of(method, storage);
         // Pass 1 in as few draws as the limits allow; a draw has one target at least, and a depth buffer is the only one of its draw.
         let mut draws: Vec<Vec<usize>> = Vec::new();
@@ -283,8 +283,8 @@ impl Shaders {
         }
         let module = method.module();
         // What thin pixels take for noise follows from how sums are stored.
-        let module = if storage == Storage::Half {
-            with_rounding(&module, crate::features::Storage::F16.rounding().unit)
+        let module = if storage == TargetPrecision::Half {
+            with_rounding(&module, crate::features::SumPrecision::F16.rounding().unit)
         } else {
             module
         };
@@ -564,7 +564,7 @@ pub struct Rendered {
 }
 
 /// What [`crate::gpu::GpuError::Lacks`] says where f32 targets cannot be blended into.
-const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 (pipeline::Storage::Half, for networks), let compute passes \
+const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 (pipeline::TargetPrecision::Half, for networks), let compute passes \
     add them up (gpu::tiles, which needs no blending), or choose another adapter with WGPU_ADAPTER_NAME";
 
 impl<'a> Pipeline<'a> {
@@ -578,7 +578,7 @@ impl<'a> Pipeline<'a> {
         method: &MethodShader,
         range: [f32; 2],
         background: [f32; 3],
-        storage: Storage,
+        storage: TargetPrecision,
     ) -> Result<Self, GpuError> {
         Self::within(gpu, drawing, method, range, background, storage, Limits::of(gpu))
     }
@@ -589,7 +589,7 @@ impl<'a> Pipeline<'a> {
         method: &MethodShader,
         range: [f32; 2],
         background: [f32; 3],
-        storage: Storage,
+        storage: TargetPrecision,
         limits: Limits,
     ) -> Result<Self, GpuError> {
         if storage.blends_f32() && !gpu.blends_f32() {
@@ -598,7 +598,7 @@ impl<'a> Pipeline<'a> {
                 feature: BLENDING,
             });
         }
-        if storage == Storage::Half && drawing.greatest >= MAX_SCALED {
+        if storage == TargetPrecision::Half && drawing.greatest >= MAX_SCALED {
             return Err(GpuError::NoImage(format!(
                 "view_z {:e} is too far away for a depth buffer, take a smaller unit",
                 drawing.greatest
@@ -991,7 +991,7 @@ pub fn render(
 ) -> Result<Rendered, GpuError> {
     let drawing = Drawing::new(gpu, list)?;
     let range = method.depth_range(list, planes, depth_range)?;
-    Pipeline::new(gpu, &drawing, method, range, background, Storage::Full)?.render(gpu)
+    Pipeline::new(gpu, &drawing, method, range, background, TargetPrecision::Full)?.render(gpu)
 }
 
 #[cfg(test)]
@@ -1186,7 +1186,7 @@ pub(crate) mod tests {
         list: &FragmentList,
         limits: Limits,
         chunk: usize,
-        storage: Storage,
+        storage: TargetPrecision,
     ) -> (usize, Vec<[f32; 3]>) {
         let drawing = Drawing::in_chunks(gpu, list, chunk).unwrap();
         let range = method.depth_range(list, None, None).unwrap();
@@ -1202,7 +1202,7 @@ pub(crate) mod tests {
         let list = built_in("spheres", 48);
         for (network, default, narrow) in [("recommended", 1, 3), ("moments-6", 2, 3)] {
             let method = shader(&model(network));
-            let f32s = Storage::Full;
+            let f32s = TargetPrecision::Full;
             let whole = drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, f32s);
             let split = drawn(gpu, &method, &list, Limits::WEBGPU, list.len() / 3, f32s);
             let least = drawn(
@@ -1252,7 +1252,7 @@ pub(crate) mod tests {
                 &drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, storage).1,
             )
         };
-        let d = differences(&draw(Storage::HalfColor), &draw(Storage::Full));
+        let d = differences(&draw(TargetPrecision::HalfColor), &draw(TargetPrecision::Full));
         let most = d[d.len() * 999 / 1000];
         println!("99.9 % within {most:.1e}");
         assert!(most <= 0.01 && most > 1e-6, "{most:e}");
@@ -1269,7 +1269,7 @@ pub(crate) mod tests {
         let (list, method) = (built_in("foliage", 96), shader(&model("recommended")));
         let exact = image::ground_truth(&list, GREY.map(f64::from)).unwrap();
         let mse = |pixels: &[[f32; 3]]| image(&list, pixels).error(&exact).unwrap().mse();
-        let half = mse(&drawn(&poor, &method, &list, Limits::WEBGPU, usize::MAX, Storage::Half).1);
+        let half = mse(&drawn(&poor, &method, &list, Limits::WEBGPU, usize::MAX, TargetPrecision::Half).1);
         let full = mse(&crate::gpu::tiles::render(&poor, &method, &list, None, None, GREY)
             .unwrap()
             .pixels);
@@ -1279,7 +1279,7 @@ pub(crate) mod tests {
         let d = differences(
             &image(
                 &odd,
-                &drawn(&poor, &method, &odd, Limits::WEBGPU, usize::MAX, Storage::Half).1,
+                &drawn(&poor, &method, &odd, Limits::WEBGPU, usize::MAX, TargetPrecision::Half).1,
             ),
             &cpu(&model("recommended"), &odd),
         );
@@ -1337,7 +1337,7 @@ pub(crate) mod tests {
                     targets: 8,
                 },
             ] {
-                for storage in Storage::ALL {
+                for storage in TargetPrecision::ALL {
                     let shaders = Shaders::new(&method, storage, limits);
                     let sources = shaders
                         .pass1
@@ -1351,7 +1351,7 @@ pub(crate) mod tests {
                 source: method.source.replace("oit_weight", "oit_wait"),
                 ..method
             };
-            assert!(validate(&Shaders::new(&broken, Storage::Full, Limits::WEBGPU).pass2).is_err());
+            assert!(validate(&Shaders::new(&broken, TargetPrecision::Full, Limits::WEBGPU).pass2).is_err());
         }
     }
 
@@ -1406,14 +1406,14 @@ pub(crate) mod tests {
     #[test]
     fn targets_of_the_shipped_networks() {
         let formats = |network: &str| {
-            Target::of(&shader(&model(network)), Storage::Full)
+            Target::of(&shader(&model(network)), TargetPrecision::Full)
                 .iter()
                 .map(|t| t.format)
                 .collect::<Vec<_>>()
         };
         assert_eq!(formats("recommended"), [Rgba32Float, Rg32Float, Rg32Float]);
         assert_eq!(formats("moments-6"), [Rgba32Float, Rgba32Float, Rg32Float]);
-        let bytes: u32 = Target::of(&shader(&model("recommended")), Storage::Full)
+        let bytes: u32 = Target::of(&shader(&model("recommended")), TargetPrecision::Full)
             .iter()
             .map(|t| t.bytes())
             .sum();
@@ -1424,7 +1424,7 @@ pub(crate) mod tests {
             ..shader(&model("small"))
         };
         assert_eq!(
-            Target::of(&bare, Storage::Full),
+            Target::of(&bare, TargetPrecision::Full),
             [Target {
                 format: R32Float,
                 holds: Holds::Added { first: 0, count: 1 }

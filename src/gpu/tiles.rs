@@ -270,7 +270,7 @@ impl TilePasses {
     ///
     /// # Errors
     /// [`GpuError::Refused`].
-    pub fn asked(&self, gpu: &Gpu) -> Result<u64, GpuError> {
+    pub fn evaluated(&self, gpu: &Gpu) -> Result<u64, GpuError> {
         let texels: Vec<[f32; 4]> = gpu.download(&self.image, self.width as usize * self.height as usize)?;
         Ok(texels.iter().map(|t| t[3] as u64).sum())
     }
@@ -421,11 +421,11 @@ mod tests {
                     "{name}, {network}"
                 );
                 assert!(counts.network > 0 && counts.known > 0, "{counts:?}");
-                let asked: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 4).sum();
-                let found = passes.asked(gpu).unwrap() as usize;
+                let evaluated: usize = (0..list.pixels()).map(|p| list.range(p).len()).filter(|&n| n > 4).sum();
+                let found = passes.evaluated(gpu).unwrap() as usize;
                 assert!(
-                    found <= asked && found * 100 >= asked * 98,
-                    "{name}, {network}: {found} of {asked}"
+                    found <= evaluated && found * 100 >= evaluated * 98,
+                    "{name}, {network}: {found} of {evaluated}"
                 );
             }
         }
@@ -448,7 +448,7 @@ mod tests {
     }
 
     /// What cannot be seen is left out: on the built-in scenes no channel is more than 1/512 from the image that skips nothing, FLIP at most 0.0005, and the CPU's `visible` image is met as
-    /// the CPU's is elsewhere; fewer fragments are asked about where some are hidden. Control: a shader that takes nearly all fragments for hidden.
+    /// the CPU's is elsewhere; fewer fragments are evaluated for where some are hidden. Control: a shader that takes nearly all fragments for hidden.
     #[test]
     fn what_is_left_out_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
@@ -469,23 +469,23 @@ mod tests {
                     passes.run(gpu, skip).unwrap();
                     (
                         image(&list, &passes.image(gpu).unwrap()),
-                        passes.asked(gpu).unwrap(),
+                        passes.evaluated(gpu).unwrap(),
                         passes.counts(gpu).unwrap(),
                     )
                 };
                 let ((none, ..), (_, exact, _)) = (of(&method, Skip::None), of(&method, Skip::Exact));
-                let (visible, asked, counts) = of(&method, Skip::Visible);
+                let (visible, evaluated, counts) = of(&method, Skip::Visible);
                 let worst = |a: &Image| differences(a, &none)[list.pixels() - 1];
                 let looks = flip(&none, &visible).unwrap().mean();
                 println!(
-                    "{name}, {network}: {counts:?}, asked {exact} and {asked}, change {:.1e}, FLIP {looks:.1e}",
+                    "{name}, {network}: {counts:?}, evaluated {exact} and {evaluated}, change {:.1e}, FLIP {looks:.1e}",
                     worst(&visible)
                 );
                 assert!(
-                    worst(&visible) <= 1.0 / 512.0 && looks <= 5e-4 && asked <= exact,
+                    worst(&visible) <= 1.0 / 512.0 && looks <= 5e-4 && evaluated <= exact,
                     "{name}, {network}"
                 );
-                assert!(asked * 10 < exact * 9 || name != "foliage");
+                assert!(evaluated * 10 < exact * 9 || name != "foliage");
                 let neural = Neural::new(mlp).with_skip(Skip::Visible);
                 let accumulated = neural.accumulate(&list, Context::default()).unwrap();
                 let cpu = crate::evaluate::image::of_method(
@@ -507,8 +507,8 @@ mod tests {
         assert!(controls > 3, "{controls}");
     }
 
-    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and none is asked about. Controls: pixels three times as opaque are
-    /// asked about, and networks that answer 0 or 1 do change what is seen a little.
+    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and the network is evaluated in none of them. Controls: it is in pixels three times
+    /// as opaque, and networks that answer 0 or 1 do change what is seen a little.
     #[test]
     fn faint_pixels_need_no_network() {
         let Some(gpu) = gpu() else { return };
@@ -525,11 +525,11 @@ mod tests {
                 };
                 (
                     differences(&of(Skip::None), &of(Skip::Visible))[63],
-                    passes.asked(gpu).unwrap(),
+                    passes.evaluated(gpu).unwrap(),
                 )
             };
-            let (worst, asked) = changed(&method, &list(0.06));
-            assert!(worst <= 1.0 / 512.0 && asked == 0, "{worst} {asked}");
+            let (worst, evaluated) = changed(&method, &list(0.06));
+            assert!(worst <= 1.0 / 512.0 && evaluated == 0, "{worst} {evaluated}");
             assert_eq!(changed(&method, &list(0.2)), (0.0, 64 * 20));
             assert!(bias == 0.0 || worst > 1e-5, "{worst}");
         }
@@ -543,7 +543,7 @@ mod tests {
         Mlp::new("biased", mlp.feature_set(), layers, crate::model::Provenance::default()).unwrap()
     }
 
-    /// Where a network's answers weigh too little for the bound, it is asked about hidden fragments after all, and the image is that of none. Control: with answers that weigh enough, it is
+    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and the image is that of none. Control: with answers that weigh enough, it is
     /// not.
     #[test]
     fn doubtful_pixels_are_asked_about() {
@@ -552,15 +552,15 @@ mod tests {
             .map(|i| (if i < 20 { 2.0 + 0.01 * i as f32 } else { 40.0 + i as f32 }, 0.45))
             .collect();
         let list = few(8, &vec![&pixel[..]; 64]);
-        let asked = |bias: f32| {
+        let evaluated = |bias: f32| {
             let passes = passes(gpu, &list, &shader(&biased("recommended", bias)));
             let none = shaded(gpu, &passes, Skip::None);
             let visible = shaded(gpu, &passes, Skip::Visible);
             assert_eq!(passes.counts(gpu).unwrap().hiding, 64);
-            (passes.asked(gpu).unwrap(), none == visible)
+            (passes.evaluated(gpu).unwrap(), none == visible)
         };
-        let (doubtful, same) = asked(40.0);
-        let (usual, _) = asked(0.0);
+        let (doubtful, same) = evaluated(40.0);
+        let (usual, _) = evaluated(0.0);
         println!("{doubtful} and {usual} of {}", list.len());
         assert!(
             same && doubtful >= list.len() as u64 && usual < list.len() as u64 * 3 / 4,

@@ -109,7 +109,7 @@ pub fn hidden_layers<S: Simd>(simd: S, sizes: &[usize], parameters: &[f32], rows
     (row, at)
 }
 
-/// The absorbance b that [`Answer::Fraction`](crate::features::Answer::Fraction) scales, from the feature that is ln(b + offset).
+/// The absorbance b that [`Answer::AbsorbanceShare`](crate::features::Answer::AbsorbanceShare) scales, from the feature that is ln(b + offset).
 #[inline(always)]
 pub fn absorbance<S: Simd>(simd: S, log: f32x16<S>, offset: f32) -> f32x16<S> {
     let splat = |x: f32| f32x16::splat(simd, x);

@@ -3,7 +3,7 @@
 use super::Provenance;
 use super::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden_layers, logit};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::numeric::lanes::{self, LANES, Lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
@@ -243,11 +243,11 @@ impl Mlp {
     /// The network's answer to one row of features: the reference that every export is held to.
     ///
     /// Each unit starts from its bias and adds weight × input in the order of the inputs, multiplication and addition rounded apart; ReLU
-    /// between layers; then [`Real::sigmoid`], and what the feature set makes of it ([`FeatureSet::answer`]).
+    /// between layers; then [`Scalar::sigmoid`], and what the feature set makes of it ([`FeatureSet::answer`]).
     ///
     /// # Panics
     /// If the row is not as wide as the feature set.
-    pub fn forward<R: Real>(&self, features: &[f32]) -> R {
+    pub fn forward<R: Scalar>(&self, features: &[f32]) -> R {
         assert_eq!(features.len(), self.layers[0].inputs, "one feature an input");
         let mut out = [R::ZERO];
         self.forward_block::<R, 1>(features, &mut out);
@@ -261,7 +261,7 @@ impl Mlp {
     ///
     /// # Panics
     /// If the length of `rows` is not a multiple of W.
-    pub fn forward_batch<R: Real>(&self, rows: &[f32]) -> Vec<R> {
+    pub fn forward_batch<R: Scalar>(&self, rows: &[f32]) -> Vec<R> {
         let width = self.layers[0].inputs;
         assert_eq!(rows.len() % width, 0, "whole rows of {width} features");
         let mut out = vec![R::ZERO; rows.len() / width];
@@ -284,7 +284,7 @@ impl Mlp {
     }
 
     /// L rows side by side: every lane does what a single row would, so that lanes can share vector registers and still agree to the bit.
-    fn forward_block<R: Real, const L: usize>(&self, rows: &[f32], out: &mut [R]) {
+    fn forward_block<R: Scalar, const L: usize>(&self, rows: &[f32], out: &mut [R]) {
         let width = self.layers[0].inputs;
         let mut x: Vec<[R; L]> = (0..width)
             .map(|i| std::array::from_fn(|lane| R::from_f32(rows[lane * width + i])))
@@ -313,7 +313,7 @@ impl Mlp {
             let s = logit.sigmoid();
             *out = match answer {
                 Answer::Sigmoid => s,
-                Answer::Fraction { column, offset } => {
+                Answer::AbsorbanceShare { column, offset } => {
                     let log = R::from_f32(rows[lane * width + column].min(MAX_LOG_ABSORBANCE));
                     let absorbance = (log.exp() - R::from_f32(offset)).max(R::ZERO);
                     // e^−x is lost in rounding long before x = 100, and stays a normal number.
@@ -407,7 +407,7 @@ impl Batched {
             let s = lanes::sigmoid(simd, logit(simd, w, b, h, v));
             let value = match self.answer {
                 Answer::Sigmoid => s,
-                Answer::Fraction { column, offset } => {
+                Answer::AbsorbanceShare { column, offset } => {
                     let absorbance = absorbance(simd, work[column][v].load(simd), offset);
                     lanes::exp(simd, -(absorbance * s))
                 }

@@ -1,6 +1,6 @@
 //! Absorbance in front of a depth, reconstructed from power moments.
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::numeric::orthogonal::{MassBounds, Orthogonal};
 use crate::pixel::MomentDepth;
 
@@ -58,7 +58,7 @@ impl Bias {
     }
 
     /// The regularised moments of a measure of mass 1: b_1..b_m of the result, after b_0 = 1.
-    pub fn apply<R: Real, const M: usize>(&self, normalised: [R; M]) -> [R; M] {
+    pub fn apply<R: Scalar, const M: usize>(&self, normalised: [R; M]) -> [R; M] {
         let s = R::from_f64(self.strength);
         let keep = R::ONE - s;
         std::array::from_fn(|k| {
@@ -81,7 +81,7 @@ pub struct PowerCurve<R, const N: usize> {
     fractions: Orthogonal<R, N>,
 }
 
-impl<R: Real, const N: usize> PowerCurve<R, N> {
+impl<R: Scalar, const N: usize> PowerCurve<R, N> {
     /// The curve of a pixel's moments b_0..b_2N, normalised by b_0 and then biased.
     ///
     /// # Domain

@@ -1,6 +1,6 @@
 //! Power moments of absorbance.
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::pixel::MomentDepth;
 
 /// Power moments b_0..b_K of a pixel: b_k = Σ A_i z_i^k, N = K + 1 of them.
@@ -17,7 +17,7 @@ use crate::pixel::MomentDepth;
 ///
 /// # Panics
 /// If the slices differ in length.
-pub fn power_moments<R: Real, const N: usize>(depths: &[MomentDepth], absorbances: &[f64]) -> [R; N] {
+pub fn power_moments<R: Scalar, const N: usize>(depths: &[MomentDepth], absorbances: &[f64]) -> [R; N] {
     assert_eq!(depths.len(), absorbances.len(), "one absorbance a depth");
     let mut b = [R::ZERO; N];
     for (&MomentDepth(z), &a) in depths.iter().zip(absorbances) {

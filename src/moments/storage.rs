@@ -6,7 +6,7 @@ use crate::numeric::quantise::round_unorm16;
 
 /// How the moments of a pixel are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Storage {
+pub enum MomentStorage {
     /// Double precision: no loss; the biases are those of single precision.
     F64,
     /// Single precision, rounded after every addition.
@@ -17,7 +17,7 @@ pub enum Storage {
     Nlqm,
 }
 
-impl Storage {
+impl MomentStorage {
     /// Suffix of a method's name.
     pub fn suffix(self) -> &'static str {
         match self {

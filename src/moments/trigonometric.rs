@@ -1,6 +1,6 @@
 //! Trigonometric moments of absorbance, and absorbance in front of a depth reconstructed from them.
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::numeric::complex::Complex;
 use crate::numeric::unit_circle::Szego;
 use crate::pixel::MomentDepth;
@@ -24,12 +24,12 @@ pub struct TrigonometricMoments<R, const M: usize> {
 ///
 /// # Source
 /// MKKP18 Eq. 5.
-pub fn circle_point<R: Real>(MomentDepth(z): MomentDepth) -> Complex<R> {
+pub fn circle_point<R: Scalar>(MomentDepth(z): MomentDepth) -> Complex<R> {
     let (sin, cos) = libm::sincos((2.0 * std::f64::consts::PI - WRAPPING_ZONE) * (z + 1.0) / 2.0);
     Complex::new(R::from_f64(cos), R::from_f64(sin))
 }
 
-impl<R: Real, const M: usize> TrigonometricMoments<R, M> {
+impl<R: Scalar, const M: usize> TrigonometricMoments<R, M> {
     /// No absorbance.
     pub const ZERO: Self = Self {
         total: R::ZERO,
@@ -52,7 +52,7 @@ impl<R: Real, const M: usize> TrigonometricMoments<R, M> {
 ///
 /// # Source
 /// MKKP18 Sec. 5.2, ψ.
-fn order<R: Real>(x: Complex<R>) -> R {
+fn order<R: Scalar>(x: Complex<R>) -> R {
     match (x.re >= R::ZERO, x.im >= R::ZERO) {
         (true, true) => x.im - x.re,
         (false, true) => R::from_f64(2.0) - x.re - x.im,
@@ -91,7 +91,7 @@ pub struct TrigonometricCurve<R, const M: usize> {
     end: R,
 }
 
-impl<R: Real, const M: usize> TrigonometricCurve<R, M> {
+impl<R: Scalar, const M: usize> TrigonometricCurve<R, M> {
     /// The curve of a pixel's moments, normalised by b_0 and then biased.
     ///
     /// # Domain

@@ -1,18 +1,18 @@
 //! Complex numbers over either precision.
 
-use super::Real;
+use super::Scalar;
 use std::ops::{Add, Mul, Sub};
 
 /// re + i·im.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Complex<R> {
-    /// Real part.
+    /// Scalar part.
     pub re: R,
     /// Imaginary part.
     pub im: R,
 }
 
-impl<R: Real> Complex<R> {
+impl<R: Scalar> Complex<R> {
     /// 0.
     pub const ZERO: Self = Self {
         re: R::ZERO,
@@ -51,7 +51,7 @@ impl<R: Real> Complex<R> {
     }
 }
 
-impl<R: Real> Add for Complex<R> {
+impl<R: Scalar> Add for Complex<R> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl<R: Real> Add for Complex<R> {
     }
 }
 
-impl<R: Real> Sub for Complex<R> {
+impl<R: Scalar> Sub for Complex<R> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl<R: Real> Sub for Complex<R> {
     }
 }
 
-impl<R: Real> Mul for Complex<R> {
+impl<R: Scalar> Mul for Complex<R> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         Self {

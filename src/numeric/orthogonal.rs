@@ -1,6 +1,6 @@
 //! Measures on the real line known by their moments: orthogonal polynomials, and the representation by few atoms that has one at a given place.
 
-use super::Real;
+use super::Scalar;
 use super::roots::{MAX_ROOTS, real_roots};
 
 /// Beyond this distance from the prescribed atom, another one has no mass: at most h_n · 1e-16 for n = 2, less above.
@@ -27,14 +27,14 @@ pub struct MassBounds<R> {
     pub upper: R,
 }
 
-impl<R: Real> MassBounds<R> {
+impl<R: Scalar> MassBounds<R> {
     /// lower + weight · (upper − lower).
     pub fn blend(self, weight: R) -> R {
         self.lower + weight * (self.upper - self.lower)
     }
 }
 
-impl<R: Real, const N: usize> Orthogonal<R, N> {
+impl<R: Scalar, const N: usize> Orthogonal<R, N> {
     /// The polynomials of the measure with these moments, by a factorisation L D Lᵀ of their Hankel matrix.
     ///
     /// Row k of D Lᵀ is found from the two rows above it by Chebyshev's algorithm; D holds the h_k. Where an h_k is not positive, the moments are not those

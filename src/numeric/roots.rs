@@ -1,6 +1,6 @@
 //! Roots of polynomials that are known to have only real ones.
 
-use super::Real;
+use super::Scalar;
 
 /// Greatest degree that [`real_roots`] takes.
 pub const MAX_ROOTS: usize = 4;
@@ -22,7 +22,7 @@ const STEPS: usize = 200;
 ///
 /// # Panics
 /// If the degree is out of range.
-pub fn real_roots<R: Real>(coefficients: &[R]) -> [R; MAX_ROOTS] {
+pub fn real_roots<R: Scalar>(coefficients: &[R]) -> [R; MAX_ROOTS] {
     let degree = coefficients.len() - 1;
     assert!(
         (1..=MAX_ROOTS).contains(&degree),
@@ -37,7 +37,7 @@ pub fn real_roots<R: Real>(coefficients: &[R]) -> [R; MAX_ROOTS] {
     roots
 }
 
-fn quadratic<R: Real>(c0: R, c1: R, c2: R) -> (R, R) {
+fn quadratic<R: Scalar>(c0: R, c1: R, c2: R) -> (R, R) {
     let half = c1 * R::from_f64(0.5);
     let discriminant = half * half - c2 * c0;
     // Rounding alone makes the discriminant of a double root negative.
@@ -51,7 +51,7 @@ fn quadratic<R: Real>(c0: R, c1: R, c2: R) -> (R, R) {
     if a < b { (a, b) } else { (b, a) }
 }
 
-fn bracketed<R: Real>(c: &[R], roots: &mut [R; MAX_ROOTS]) {
+fn bracketed<R: Scalar>(c: &[R], roots: &mut [R; MAX_ROOTS]) {
     let degree = c.len() - 1;
     let mut derivative = [R::ZERO; MAX_ROOTS];
     for k in 1..=degree {
@@ -81,7 +81,7 @@ fn bracketed<R: Real>(c: &[R], roots: &mut [R; MAX_ROOTS]) {
 }
 
 /// The root within [low, high] of a polynomial that rises (or falls) through it.
-fn bracketed_root<R: Real>(c: &[R], mut low: R, mut high: R, start: R, rising: bool) -> R {
+fn bracketed_root<R: Scalar>(c: &[R], mut low: R, mut high: R, start: R, rising: bool) -> R {
     let mut x = start;
     for _ in 0..STEPS {
         let (mut value, mut slope) = (R::ZERO, R::ZERO);

@@ -1,7 +1,7 @@
 //! Measures on the complex unit circle known by their trigonometric moments: Szegő polynomials, and the representation by few atoms that has one at
 //! a given place.
 
-use super::Real;
+use super::Scalar;
 use super::complex::Complex;
 use super::roots::{MAX_ROOTS, real_roots};
 
@@ -55,7 +55,7 @@ pub struct Szego<R, const M: usize> {
     inverse_norm: [R; MAX_ROOTS + 1],
 }
 
-impl<R: Real, const M: usize> Szego<R, M> {
+impl<R: Scalar, const M: usize> Szego<R, M> {
     /// The polynomials of the measure with mass m_0 and moments m_1..m_M, m_k = ∫ x^k, by Levinson's algorithm on their Toeplitz matrix.
     ///
     /// Where an E_k is not positive, the moments are not those of a measure with more than k atoms, and everything is NaN.
@@ -154,7 +154,7 @@ impl<R: Real, const M: usize> Szego<R, M> {
             for j in 0..=M {
                 sum = sum + turned[j].scale(R::from_f64(KRAWTCHOUK[M][j][t]));
             }
-            // Real part of i^(M + t) · sum; the imaginary part is nought but rounding.
+            // Scalar part of i^(M + t) · sum; the imaginary part is nought but rounding.
             *c = match (M + t) % 4 {
                 0 => sum.re,
                 1 => -sum.im,

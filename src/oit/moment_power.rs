@@ -5,7 +5,7 @@ use super::capabilities::{Capabilities, Needs, RANGE_BITS, sums};
 use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
-use crate::moments::storage::{Storage, through_nlqm, through_unorm16};
+use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
 use crate::numeric::quantise::round_f16;
 use crate::pixel::MomentDepth;
 
@@ -41,12 +41,12 @@ fn names(head: &str) -> Vec<String> {
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let (storage, strength) = arguments.with_bias()?;
     let storage = match storage {
-        None => Storage::F64,
-        Some("f32") => Storage::F32,
-        Some("unorm16") => Storage::Unorm16,
+        None => MomentStorage::F64,
+        Some("f32") => MomentStorage::F32,
+        Some("unorm16") => MomentStorage::Unorm16,
         // Its quantities are no sums: one fragment cannot be taken out of them.
         Some("nlqm") if arguments.own => return Err(arguments.wrong("expected f32 or unorm16 before +own")),
-        Some("nlqm") => Storage::Nlqm,
+        Some("nlqm") => MomentStorage::Nlqm,
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
     Ok(Box::new(PerPixel {
@@ -60,7 +60,7 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
 /// # Source
 /// MKKP18 Sec. 3 and 4.
 struct Power<const N: usize, const M: usize> {
-    storage: Storage,
+    storage: MomentStorage,
     /// Strength of the bias in place of the published one.
     strength: Option<f64>,
 }
@@ -68,8 +68,8 @@ struct Power<const N: usize, const M: usize> {
 impl<const N: usize, const M: usize> Power<N, M> {
     fn bias(&self) -> Bias {
         let published = match self.storage {
-            Storage::Unorm16 => Bias::sixteen_bits(2 * N),
-            Storage::F64 | Storage::F32 | Storage::Nlqm => Bias::single_precision(2 * N),
+            MomentStorage::Unorm16 => Bias::sixteen_bits(2 * N),
+            MomentStorage::F64 | MomentStorage::F32 | MomentStorage::Nlqm => Bias::single_precision(2 * N),
         };
         Bias {
             strength: self.strength.unwrap_or(published.strength),
@@ -108,13 +108,13 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
         let of_sums = Capabilities::of_sums(m, own);
         let range = if own { RANGE_BITS } else { 0 };
         match self.storage {
-            Storage::F64 | Storage::F32 => of_sums,
-            Storage::Unorm16 => Capabilities {
+            MomentStorage::F64 | MomentStorage::F32 => of_sums,
+            MomentStorage::Unorm16 => Capabilities {
                 bits_per_pixel: Some(16 * m + range),
                 needs: Needs::INTERLOCK,
                 ..of_sums
             },
-            Storage::Nlqm => Capabilities {
+            MomentStorage::Nlqm => Capabilities {
                 bits_per_pixel: Some(sums(m) + 16 * m),
                 ..of_sums
             },
@@ -122,22 +122,22 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     }
 
     fn rounds_sums(&self) -> bool {
-        matches!(self.storage, Storage::F32 | Storage::Unorm16)
+        matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; M] {
         let mut b = [0.0; M];
         for &sample in samples {
             match self.storage {
-                Storage::F64 | Storage::Nlqm => add(&mut b, sample),
-                Storage::F32 => {
+                MomentStorage::F64 | MomentStorage::Nlqm => add(&mut b, sample),
+                MomentStorage::F32 => {
                     let (z, mut term) = (sample.z.0 as f32, sample.absorbance as f32);
                     for b in &mut b {
                         *b = f64::from(*b as f32 + term);
                         term *= z;
                     }
                 }
-                Storage::Unorm16 => {
+                MomentStorage::Unorm16 => {
                     add(&mut b, sample);
                     if b[0] > 0.0 {
                         let normalised = through_unorm16(b.map(|x| x / b[0]));
@@ -147,7 +147,7 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
                 }
             }
         }
-        if self.storage == Storage::Nlqm {
+        if self.storage == MomentStorage::Nlqm {
             b = scaled(b, round_f16(b[0]));
         }
         b
@@ -172,7 +172,7 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     fn curve(&self, b: &[f64; M]) -> PowerCurve<f64, N> {
         let bias = self.bias();
         match self.storage {
-            Storage::Nlqm => PowerCurve::from_parts(b[0], through_nlqm::<N, M>(&bias.apply(b.map(|x| x / b[0])))),
+            MomentStorage::Nlqm => PowerCurve::from_parts(b[0], through_nlqm::<N, M>(&bias.apply(b.map(|x| x / b[0])))),
             _ => PowerCurve::new(b, &bias),
         }
     }

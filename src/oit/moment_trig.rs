@@ -5,7 +5,7 @@ use super::capabilities::{Capabilities, Needs, RANGE_BITS};
 use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
-use crate::moments::storage::Storage;
+use crate::moments::storage::MomentStorage;
 use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
 use crate::numeric::complex::Complex;
 use crate::numeric::quantise::{round_f16, round_unorm16};
@@ -43,9 +43,9 @@ fn names(head: &str) -> Vec<String> {
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let (storage, bias) = arguments.with_bias()?;
     let storage = match storage {
-        None => Storage::F64,
-        Some("f32") => Storage::F32,
-        Some("unorm16") => Storage::Unorm16,
+        None => MomentStorage::F64,
+        Some("f32") => MomentStorage::F32,
+        Some("unorm16") => MomentStorage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
     Ok(Box::new(PerPixel {
@@ -59,7 +59,7 @@ fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, P
 /// # Source
 /// MKKP18 Sec. 5.
 struct Trigonometric<const M: usize> {
-    storage: Storage,
+    storage: MomentStorage,
     /// The bias in place of the published one.
     bias: Option<f64>,
 }
@@ -76,7 +76,7 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     fn capabilities(&self, own: bool) -> Capabilities {
         let numbers = 2 * M as u32 + 1;
         let of_sums = Capabilities::of_sums(numbers, own);
-        if self.storage == Storage::Unorm16 {
+        if self.storage == MomentStorage::Unorm16 {
             return Capabilities {
                 bits_per_pixel: Some(16 * numbers + if own { RANGE_BITS } else { 0 }),
                 needs: Needs::INTERLOCK,
@@ -87,12 +87,12 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn rounds_sums(&self) -> bool {
-        matches!(self.storage, Storage::F32 | Storage::Unorm16)
+        matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments {
         let mut b = TrigonometricMoments::ZERO;
-        if self.storage == Storage::F32 {
+        if self.storage == MomentStorage::F32 {
             let mut single = TrigonometricMoments::<f32, M>::ZERO;
             for sample in samples {
                 single.add(sample.z, sample.absorbance as f32);
@@ -104,7 +104,7 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
         }
         for sample in samples {
             b.add(sample.z, sample.absorbance);
-            if self.storage == Storage::Unorm16 && b.total > 0.0 {
+            if self.storage == MomentStorage::Unorm16 && b.total > 0.0 {
                 // MKKP18 Sec. 5.3: no transform but the shift to [0, 1].
                 let (before, total) = (b.total, round_f16(b.total));
                 let store = |v: f64| total * (2.0 * round_unorm16(0.5 * v / before + 0.5) - 1.0);
@@ -128,7 +128,7 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn curve(&self, b: &Self::Moments) -> Self::Curve {
-        let published = moment_bias(M, self.storage == Storage::Unorm16);
+        let published = moment_bias(M, self.storage == MomentStorage::Unorm16);
         TrigonometricCurve::new(b, self.bias.unwrap_or(published))
     }
 

@@ -4,7 +4,7 @@ use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
-use crate::features::{Extractor, FeatureSet, Look, MomentDepthKind, MomentFrame, Storage};
+use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, MomentFrame, SumPrecision};
 use crate::model::kernel::Row;
 use crate::model::{Mlp, Tiled, file};
 use crate::numeric::lanes::LANES;
@@ -50,7 +50,7 @@ impl Skip {
 pub struct Neural {
     mlp: Mlp,
     switches: Switches,
-    storage: Storage,
+    storage: SumPrecision,
     frame: MomentFrame,
 }
 
@@ -91,7 +91,7 @@ impl Neural {
         Self {
             mlp,
             switches: Skip::default().switches(),
-            storage: Storage::default(),
+            storage: SumPrecision::default(),
             frame: MomentFrame::default(),
         }
     }
@@ -107,7 +107,7 @@ impl Neural {
     }
 
     /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
-    pub fn with_storage(self, storage: Storage) -> Self {
+    pub fn with_storage(self, storage: SumPrecision) -> Self {
         Self { storage, ..self }
     }
 
@@ -218,7 +218,7 @@ impl Neural {
         Ok(answered)
     }
 
-    /// Features that are made pixel by pixel: the network is asked about all fragments that they do not know, but for pixels that hardly show.
+    /// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for pixels that hardly show.
     fn ask_all(
         &self,
         list: &FragmentList,
@@ -228,7 +228,7 @@ impl Neural {
         classes: &mut [Class],
     ) -> Result<Tally, crate::pixel::DepthError> {
         let start = Instant::now();
-        let Look { known, mut features } = extractor.list(list, pixels.clone())?;
+        let Extracted { known, mut features } = extractor.list(list, pixels.clone())?;
         let seconds_pass_1 = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let offsets = list.offsets();
@@ -580,7 +580,7 @@ mod tests {
     /// way, give the usual image MSE to 5 %.
     #[test]
     fn moments_of_half_resolution_lose_the_edges() {
-        use crate::features::recentred::{Known, PixelSums, Seen, absorbance, moment_depth};
+        use crate::features::recentred::{FragmentTerms, Pass2Input, PixelSums, absorbance, moment_depth};
         const SIZE: usize = 128;
         let mlp = file::from_json(include_bytes!("../../models/recommended.json"), Path::new("m.json")).unwrap();
         let mut worse = 0;
@@ -591,11 +591,11 @@ mod tests {
             };
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
             let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
-            let seen = |p: usize| -> Vec<Seen<f32>> {
+            let terms = |p: usize| -> Vec<FragmentTerms<f32>> {
                 let pixel = list.pixel(p);
                 let fragments = pixel.view_z.iter().zip(pixel.alpha);
                 fragments
-                    .map(|(&view_z, &a)| Seen {
+                    .map(|(&view_z, &a)| FragmentTerms {
                         view_z,
                         z: moment_depth(view_z, range),
                         absorbance: absorbance(a),
@@ -605,7 +605,7 @@ mod tests {
             let sums: Vec<PixelSums<f32, 4>> = (0..list.pixels())
                 .map(|p| {
                     let mut sums = PixelSums::default();
-                    seen(p).into_iter().for_each(|s| sums.add(s));
+                    terms(p).into_iter().for_each(|s| sums.add(s));
                     sums
                 })
                 .collect();
@@ -624,11 +624,11 @@ mod tests {
                     };
                     let ends =
                         [own.nearest, own.farthest].map(|v| if v.is_finite() { moment_depth(v, range) } else { 0.0 });
-                    let weights: Vec<f64> = seen(p)
+                    let weights: Vec<f64> = terms(p)
                         .into_iter()
-                        .map(|s| match own.look(s, ends) {
-                            Known::Transmittance(t) => t.into(),
-                            Known::Features(first, measure) => {
+                        .map(|s| match own.classify(s, ends) {
+                            Pass2Input::Solved(t) => t.into(),
+                            Pass2Input::Query(first, measure) => {
                                 mlp.forward::<f32>(&[&first[..], &measure[..]].concat()).into()
                             }
                         })

@@ -275,13 +275,13 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             .step_by(TILE as usize)
             .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
         {
-            let (mut fragments, mut asked, mut shown) = (0, 0, 0);
+            let (mut fragments, mut evaluated, mut shown) = (0, 0, 0);
             for p in (y..height.min(y + TILE))
                 .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
             {
                 let of = &class[list.range(p)];
                 fragments += of.len();
-                asked += of
+                evaluated += of
                     .iter()
                     .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
                     .count();
@@ -289,7 +289,7 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             }
             tiles.tiles += 1;
             tiles.empty += u64::from(fragments == 0);
-            tiles.known += u64::from(fragments > 0 && asked == 0);
+            tiles.known += u64::from(fragments > 0 && evaluated == 0);
             tiles.known_or_unseen += u64::from(fragments > 0 && shown == 0);
         }
         tiles

@@ -2,7 +2,7 @@
 
 use super::{ProfileError, Scene};
 use crate::dataset::{Rows, build::rows};
-use crate::features::{Extractor, FeatureSet, Storage};
+use crate::features::{Extractor, FeatureSet, SumPrecision};
 use crate::model::Mlp;
 use crate::model::simplify::activity;
 use crate::oit::neural::Neural;
@@ -20,7 +20,7 @@ pub struct Networked {
     /// Multiply-adds of one evaluation.
     pub multiply_adds: u64,
     /// Evaluations under `exact`, as a share of all fragments.
-    pub asked: f64,
+    pub evaluated: f64,
     /// Mean squared error of the image; none where the list makes none.
     pub image_mse: Option<f64>,
     /// Mean squared error of transmittance over all fragments; none where it answers something else.
@@ -41,7 +41,7 @@ pub struct Networked {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Stored {
     /// How moments are stored.
-    pub storage: Storage,
+    pub storage: SumPrecision,
     /// Memory of pass 1 and the composite \[bits\].
     pub bits_per_pixel: u32,
     /// Error, of the kind that [`Networked::error`] is.
@@ -85,11 +85,11 @@ impl Networked {
 
     /// Multiply-adds of the network a fragment, on average.
     pub fn multiply_adds_per_fragment(&self) -> f64 {
-        self.asked * self.multiply_adds as f64
+        self.evaluated * self.multiply_adds as f64
     }
 }
 
-/// Rows of features that a network is asked about on a scene, with the exact answers.
+/// Rows of features that a network is evaluated for on a scene, with the exact answers.
 ///
 /// # Errors
 /// [`ProfileError::Depth`] where the features need planes or a range of depth that are not known.
@@ -115,7 +115,7 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
         set,
         FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
     ) {
-        for storage in [Storage::F16, Storage::Unorm16] {
+        for storage in [SumPrecision::F16, SumPrecision::Unorm16] {
             let answers =
                 Neural::new(mlp.clone())
                     .with_storage(storage)
@@ -149,7 +149,7 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
         network: mlp.shape(),
         features: set.name(),
         multiply_adds: mlp.multiply_adds() as u64,
-        asked: answered.tally.rows as f64 / scene.list.len().max(1) as f64,
+        evaluated: answered.tally.rows as f64 / scene.list.len().max(1) as f64,
         image_mse: errors.image_mse,
         transmittance_mse: is_transmittance.then_some(errors.transmittance_mse),
         moments: set.moments() as u64,

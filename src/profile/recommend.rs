@@ -2,7 +2,7 @@
 
 use super::facts::Facts;
 use super::network::Networked;
-use crate::features::Storage;
+use crate::features::SumPrecision;
 use serde::Serialize;
 
 /// What to run on a scene.
@@ -20,7 +20,7 @@ pub struct Recommendation {
     /// Moments besides b_0.
     pub moments: u64,
     /// How moments are to be stored.
-    pub storage: Storage,
+    pub storage: SumPrecision,
     /// Memory of pass 1 and the composite \[bits\].
     pub bits_per_pixel: u32,
     /// Multiply-adds of the network a fragment, on average over the scene, under `exact` and under `visible`.
@@ -57,13 +57,13 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
     let chosen = keeping.or(least);
     let share = |class: &str| facts.classes.iter().find(|c| c.class == class).map_or(0.0, |c| c.share);
     let (network, faint, hidden) = (share("the rest"), share("of a faint pixel"), share("hidden"));
-    let asked = [network + faint + hidden, network];
+    let evaluated = [network + faint + hidden, network];
     let mut words = Vec::new();
     words.push(format!(
         "{} of the pixels are empty. Of the fragments {} need no network: {} are nearest, farthest or one of two, {} follow in closed form.",
         percent(facts.empty_pixels),
-        percent(1.0 - asked[0]),
-        percent(1.0 - asked[0] - share("one of three") - share("one of four")),
+        percent(1.0 - evaluated[0]),
+        percent(1.0 - evaluated[0] - share("one of three") - share("one of four")),
         percent(share("one of three") + share("one of four")),
     ));
     if faint + hidden > 0.005 {
@@ -84,7 +84,7 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
             percent(hidden)
         ));
     }
-    let (mut storage, mut bits, mut moments) = (Storage::F32, 0, 0);
+    let (mut storage, mut bits, mut moments) = (SumPrecision::F32, 0, 0);
     let mut per_fragment = [0.0; 2];
     match chosen {
         None => words.push("No network was judged on this scene.".to_owned()),
@@ -128,7 +128,7 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
                     name_of(s.storage)
                 ));
             }
-            per_fragment = asked.map(|share| share * n.multiply_adds as f64);
+            per_fragment = evaluated.map(|share| share * n.multiply_adds as f64);
             words.push(format!(
                 "It costs {:.0} multiply-adds a fragment on average under exact, {:.0} under visible, {} without skipping.",
                 per_fragment[0], per_fragment[1], n.multiply_adds
@@ -184,16 +184,16 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
     }
 }
 
-fn name_of(storage: Storage) -> &'static str {
+fn name_of(storage: SumPrecision) -> &'static str {
     match storage {
-        Storage::F32 => "f32",
-        Storage::F16 => "f16",
-        Storage::Unorm16 => "unorm16",
+        SumPrecision::F32 => "f32",
+        SumPrecision::F16 => "f16",
+        SumPrecision::Unorm16 => "unorm16",
     }
 }
 
 /// A configuration whose random pixels have the ranges of this scene.
-fn config(facts: &Facts, features: &str, hidden: &[usize], storage: Storage) -> String {
+fn config(facts: &Facts, features: &str, hidden: &[usize], storage: SumPrecision) -> String {
     let quantiles = |i: usize| facts.histograms[i].quantiles;
     let fragments = quantiles(0).map_or((3, 32), |q| ((q.min as u32).max(3), (q.max as u32).max(4)));
     let alpha = quantiles(1).map_or((0.05, 0.95), |q| (q.min.max(1e-3), q.max.min(1.0)));
@@ -227,7 +227,7 @@ fn config(facts: &Facts, features: &str, hidden: &[usize], storage: Storage) -> 
         law("{ law = \"paired\", gap = { min = 1e-3, max = 1.0 } }", "uniform"),
         law("{ law = \"uniform\" }", "subrange"),
         law("{ law = \"uniform\" }", "log-uniform"),
-        if storage == Storage::F32 {
+        if storage == SumPrecision::F32 {
             String::new()
         } else {
             format!("storage = \"{}\"\n", name_of(storage))

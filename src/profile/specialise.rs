@@ -105,7 +105,7 @@ struct Task<'a> {
     /// Answers that need no network, and room for the others.
     base: Vec<f32>,
     /// Fragments that the network answers.
-    asked: Vec<usize>,
+    evaluated: Vec<usize>,
     features: Vec<f32>,
     /// Whether each pixel is held out.
     held_out: Vec<bool>,
@@ -115,8 +115,8 @@ impl<'a> Task<'a> {
     fn new(scene: &'a Scene<'a>, mlp: &Mlp, plan: &Plan) -> Result<Self, ProfileError> {
         let list = scene.list;
         let extractor = Extractor::for_list(mlp.feature_set(), list, scene.context.planes, scene.context.depth_range)?;
-        let look = extractor.list(list, 0..list.pixels())?;
-        let asked = (0..list.len()).filter(|&i| look.known[i].is_nan()).collect();
+        let extracted = extractor.list(list, 0..list.pixels())?;
+        let evaluated = (0..list.len()).filter(|&i| extracted.known[i].is_nan()).collect();
         // Tiles of an image; of another list runs of as many pixels.
         let width = list.size().map_or(list.pixels(), |s| s.0 as usize).max(1);
         let tile_of = |p: usize| {
@@ -133,9 +133,9 @@ impl<'a> Task<'a> {
         let held_out = (0..list.pixels()).into_par_iter().map(out).collect();
         Ok(Self {
             scene,
-            base: look.known,
-            asked,
-            features: look.features,
+            base: extracted.known,
+            evaluated,
+            features: extracted.features,
             held_out,
         })
     }
@@ -152,7 +152,7 @@ impl<'a> Task<'a> {
             pixels: Vec::new(),
         };
         let mut p = 0;
-        for (row, &i) in self.features.chunks_exact(width).zip(&self.asked) {
+        for (row, &i) in self.features.chunks_exact(width).zip(&self.evaluated) {
             while list.offsets()[p + 1] <= i as u64 {
                 p += 1;
             }
@@ -167,7 +167,7 @@ impl<'a> Task<'a> {
         // Nothing is left out altogether: another light may fall on it.
         normalise(&mut [&mut rows.weights]);
         rows.weights.iter_mut().for_each(|w| *w = 0.9 * *w + 0.1);
-        let held_out = self.asked.len() - rows.len();
+        let held_out = self.evaluated.len() - rows.len();
         (rows, held_out)
     }
 
@@ -194,7 +194,7 @@ impl<'a> Task<'a> {
     /// Answers of a network to the whole scene.
     fn answers(&self, mlp: &Mlp) -> Vec<f32> {
         let mut all = self.base.clone();
-        for (&i, t) in self.asked.iter().zip(mlp.predict(&self.features)) {
+        for (&i, t) in self.evaluated.iter().zip(mlp.predict(&self.features)) {
             all[i] = t;
         }
         all
@@ -399,7 +399,7 @@ fn smaller(width: usize, hidden: &[usize], most: usize) -> Option<Vec<usize>> {
 /// Fits a network to a scene and makes it as small as the error allows; `progress` is told what is tried.
 ///
 /// # Errors
-/// [`ProfileError`] where the network is asked about too little, or does not answer with transmittances.
+/// [`ProfileError`] where the network is evaluated for too little, or does not answer with transmittances.
 pub fn specialise(
     scene: &Scene<'_>,
     mlp: &Mlp,
@@ -422,7 +422,7 @@ pub fn specialise(
     let (rows, held_out) = task.rows(mlp);
     if rows.len() < MIN_ROWS {
         return Err(ProfileError::TooFew {
-            rows: task.asked.len(),
+            rows: task.evaluated.len(),
             least: MIN_ROWS,
             what: "fit a network to them",
         });

@@ -40,7 +40,7 @@ pub struct MeshEntry {
     pub color: Option<[f32; 3]>,
     /// Opacity and colour of single materials by name; they win over `alpha` and `color`.
     #[serde(default)]
-    pub materials: BTreeMap<String, Look>,
+    pub materials: BTreeMap<String, MaterialOverride>,
     /// Size factor, > 0.
     pub scale: Option<f64>,
     /// Angles about x, y and z \[degrees\].
@@ -52,7 +52,7 @@ pub struct MeshEntry {
 /// Opacity and colour that take the place of a material's own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Look {
+pub struct MaterialOverride {
     /// Opacity, in [0, 1].
     pub alpha: Option<f32>,
     /// Linear colour, each channel in [0, 1].
@@ -133,24 +133,24 @@ impl SceneFile {
         for (i, mesh) in self.meshes.iter().enumerate() {
             let overall = (
                 String::new(),
-                Look {
+                MaterialOverride {
                     alpha: mesh.alpha,
                     color: mesh.color,
                 },
             );
-            let looks = mesh
+            let overrides = mesh
                 .materials
                 .iter()
-                .map(|(name, look)| (format!(".materials.{name}"), *look));
-            for (place, look) in std::iter::once(overall).chain(looks) {
-                if let Some(alpha) = look.alpha.filter(|a| !(0.0..=1.0).contains(a)) {
+                .map(|(name, material)| (format!(".materials.{name}"), *material));
+            for (place, material) in std::iter::once(overall).chain(overrides) {
+                if let Some(alpha) = material.alpha.filter(|a| !(0.0..=1.0).contains(a)) {
                     return wrong(
                         &format!("mesh[{i}]{place}.alpha"),
                         alpha.to_string(),
                         "a number in [0, 1]",
                     );
                 }
-                if let Some(color) = look.color.filter(|c| c.iter().any(|x| !(0.0..=1.0).contains(x))) {
+                if let Some(color) = material.color.filter(|c| c.iter().any(|x| !(0.0..=1.0).contains(x))) {
                     return wrong(
                         &format!("mesh[{i}]{place}.color"),
                         format!("{color:?}"),

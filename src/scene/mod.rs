@@ -9,7 +9,7 @@ mod procedural;
 mod raster;
 
 pub use camera::Camera;
-pub use file::{Look, MeshEntry, SceneFile};
+pub use file::{MaterialOverride, MeshEntry, SceneFile};
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;

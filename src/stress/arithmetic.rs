@@ -1,6 +1,6 @@
 //! The arithmetic of devices: single precision with what shading languages allow beside IEEE 754.
 
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -152,7 +152,7 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Sum for Device<F
     }
 }
 
-impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Real for Device<FUSED, ROUGH, FLUSHED> {
+impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Scalar for Device<FUSED, ROUGH, FLUSHED> {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
     const EPSILON: Self = Self(f32::EPSILON as f64);

@@ -4,7 +4,7 @@ use super::cases::Fragments;
 use super::subject::{Arithmetic, Promise, Subject, each_pixel, to_digits};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::oit;
 use crate::pixel::{LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
 
@@ -74,7 +74,7 @@ impl Classic {
         })
     }
 
-    fn answers<R: Real>(self, fragments: &Fragments) -> Vec<f64> {
+    fn answers<R: Scalar>(self, fragments: &Fragments) -> Vec<f64> {
         let (v0, v1) = fragments.context.depth_range.unwrap_or((1.0, 1.0));
         let warp = LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into()));
         let z =
@@ -91,7 +91,7 @@ impl Classic {
 }
 
 /// Power moments b_0..b_2N of a pixel in arithmetic R.
-pub(super) fn power_sums<R: Real, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth) -> [R; M] {
+pub(super) fn power_sums<R: Scalar, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth) -> [R; M] {
     let mut b = [R::ZERO; M];
     for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
         let (z, mut term) = (R::from_f64(z(v).0), R::from_f64(absorbance(alpha)));
@@ -103,7 +103,7 @@ pub(super) fn power_sums<R: Real, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f
     b
 }
 
-fn power<R: Real, const N: usize, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth, out: &mut [f64]) {
+fn power<R: Scalar, const N: usize, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth, out: &mut [f64]) {
     let b: [R; M] = power_sums(pixel, &z);
     if b[0] == R::ZERO {
         return out.fill(1.0);
@@ -114,7 +114,7 @@ fn power<R: Real, const N: usize, const M: usize>(pixel: Pixel<'_>, z: impl Fn(f
     }
 }
 
-fn trigonometric<R: Real, const N: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth, out: &mut [f64]) {
+fn trigonometric<R: Scalar, const N: usize>(pixel: Pixel<'_>, z: impl Fn(f32) -> MomentDepth, out: &mut [f64]) {
     let mut b = TrigonometricMoments::<R, N>::ZERO;
     for (&v, &alpha) in pixel.view_z.iter().zip(pixel.alpha) {
         b.add(z(v), R::from_f64(absorbance(alpha)));

@@ -364,7 +364,7 @@ mod tests {
             ..Execution::default()
         };
         let coarse = Execution {
-            storage: crate::features::Storage::F16,
+            storage: crate::features::SumPrecision::F16,
             ..Execution::default()
         };
         let [one_pass, prepass, worst, coarse] =

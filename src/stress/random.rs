@@ -30,7 +30,7 @@ pub struct Counts {
     /// Pixels that they were in.
     pub pixels: u64,
     /// Fragments that the network was asked about; the others are known without it.
-    pub asked: u64,
+    pub evaluated: u64,
     /// Answers that are NaN or infinite.
     pub nonfinite: u64,
     /// Answers below 0 or above 1.
@@ -43,7 +43,7 @@ pub struct Counts {
 
 impl Counts {
     /// Counts one pixel's answers.
-    fn see(&mut self, view_z: &[f32], answers: &[f32]) {
+    fn add(&mut self, view_z: &[f32], answers: &[f32]) {
         let nearest = view_z.iter().copied().fold(f32::INFINITY, f32::min);
         self.fragments += view_z.len() as u64;
         self.pixels += 1;
@@ -61,7 +61,7 @@ impl Counts {
         Self {
             fragments: self.fragments + other.fragments,
             pixels: self.pixels + other.pixels,
-            asked: self.asked + other.asked,
+            evaluated: self.evaluated + other.evaluated,
             nonfinite: self.nonfinite + other.nonfinite,
             out_of_range: self.out_of_range + other.out_of_range,
             nearest_not_one: self.nearest_not_one + other.nearest_not_one,
@@ -105,12 +105,12 @@ pub fn hunt(
             .into_par_iter()
             .with_min_len(256)
             .fold(Counts::default, |mut counts, p| {
-                counts.see(list.pixel(p).view_z, &answered.transmittance[list.range(p)]);
+                counts.add(list.pixel(p).view_z, &answered.transmittance[list.range(p)]);
                 counts
             });
         let seen = seen.reduce(Counts::default, Counts::and);
         counts = counts.and(Counts {
-            asked: answered.tally.rows,
+            evaluated: answered.tally.rows,
             ..seen
         });
         progress(counts.fragments);
@@ -189,7 +189,7 @@ mod tests {
             for frame in [MomentFrame::Scene, MomentFrame::Pixel] {
                 let found = hunt(mlp, frame, 250_000, 1, &|_| {}).unwrap();
                 assert!(
-                    found.fragments >= 250_000 && found.asked > 100_000 && found.pixels > 3000,
+                    found.fragments >= 250_000 && found.evaluated > 100_000 && found.pixels > 3000,
                     "{found:?}"
                 );
                 let broken = (
@@ -209,12 +209,12 @@ mod tests {
     #[test]
     fn faults_are_counted() {
         let mut counts = Counts::default();
-        counts.see(&[1.0, 2.0, 1.0, 3.0], &[1.0, f32::NAN, 0.5, 1.5]);
-        counts.see(&[7.0], &[0.999]);
+        counts.add(&[1.0, 2.0, 1.0, 3.0], &[1.0, f32::NAN, 0.5, 1.5]);
+        counts.add(&[7.0], &[0.999]);
         let expected = Counts {
             fragments: 5,
             pixels: 2,
-            asked: 0,
+            evaluated: 0,
             nonfinite: 1,
             out_of_range: 1,
             nearest_not_one: 2,

@@ -2,10 +2,10 @@
 
 use super::arithmetic::{Flushed, Fused, Rough, Worst};
 use super::cases::Fragments;
-use crate::features::recentred::{self, Known, PixelSums, Rounding, Seen};
-use crate::features::{Extractor, FeatureSet, MomentFrame, Storage};
+use crate::features::recentred::{self, FragmentTerms, Pass2Input, PixelSums, Rounding};
+use crate::features::{Extractor, FeatureSet, MomentFrame, SumPrecision};
 use crate::model::{Dense, Mlp, ShapeError};
-use crate::numeric::Real;
+use crate::numeric::Scalar;
 use crate::numeric::quantise::round_f16;
 use crate::oit::neural::Neural;
 use crate::oit::{self, Method};
@@ -272,7 +272,7 @@ pub struct Execution {
     /// What computes.
     pub arithmetic: Arithmetic,
     /// What keeps the moments; 16-bit formats go with the usual arithmetic.
-    pub storage: Storage,
+    pub storage: SumPrecision,
     /// What moments are taken about.
     pub frame: MomentFrame,
     /// What keeps the weights.
@@ -304,7 +304,7 @@ impl Execution {
             arithmetic: Arithmetic::Worst,
             ..pixel
         });
-        for storage in [Storage::F16, Storage::Unorm16] {
+        for storage in [SumPrecision::F16, SumPrecision::Unorm16] {
             all.extend([Self { storage, ..usual }, Self { storage, ..pixel }]);
         }
         all.extend(weights);
@@ -319,9 +319,9 @@ impl Execution {
         }
         parts.extend(Some(self.arithmetic.name()).filter(|name| !name.is_empty()));
         parts.extend(match self.storage {
-            Storage::F32 => None,
-            Storage::F16 => Some("f16"),
-            Storage::Unorm16 => Some("unorm16"),
+            SumPrecision::F32 => None,
+            SumPrecision::F16 => Some("f16"),
+            SumPrecision::Unorm16 => Some("unorm16"),
         });
         parts.extend(Some(self.weights.suffix().trim_start_matches(" @ ")).filter(|name| !name.is_empty()));
         if parts.is_empty() {
@@ -406,17 +406,17 @@ fn answer_digits<const K: usize>(
     out: &mut [f64],
 ) {
     let (nearest, farthest) = ends(pixel);
-    let seen: Vec<Seen<f64>> = seen_by(pixel, &z);
+    let terms: Vec<FragmentTerms<f64>> = terms_of(pixel, &z);
     let mut sums = PixelSums::<f64, K>::default();
-    for &s in &seen {
+    for &s in &terms {
         sums.add(s);
         sums.b = sums.b.map(|b| to_digits(b, digits));
         sums.b0 = to_digits(sums.b0, digits);
     }
-    for (out, &s) in out.iter_mut().zip(&seen) {
-        *out = match sums.look_at_stored(s, [z(nearest), z(farthest)], rounding) {
-            Known::Transmittance(t) => t,
-            Known::Features(first, measure) => {
+    for (out, &s) in out.iter_mut().zip(&terms) {
+        *out = match sums.classify_stored(s, [z(nearest), z(farthest)], rounding) {
+            Pass2Input::Solved(t) => t,
+            Pass2Input::Query(first, measure) => {
                 let row: Vec<f32> = first.iter().chain(&measure).map(|&f| f as f32).collect();
                 mlp.forward::<f64>(&row)
             }
@@ -425,8 +425,8 @@ fn answer_digits<const K: usize>(
 }
 
 /// Fragments of a pixel in double precision.
-fn seen_by(pixel: Pixel<'_>, z: impl Fn(f32) -> f64) -> Vec<Seen<f64>> {
-    let one = |(&view_z, &alpha): (&f32, &f32)| Seen {
+fn terms_of(pixel: Pixel<'_>, z: impl Fn(f32) -> f64) -> Vec<FragmentTerms<f64>> {
+    let one = |(&view_z, &alpha): (&f32, &f32)| FragmentTerms {
         view_z,
         z: z(view_z),
         absorbance: absorbance(alpha),
@@ -458,13 +458,13 @@ impl TwoMoments {
                 let (nearest, farthest) = ends(pixel);
                 let depth = LogWarp::new(ViewZ(nearest.into()), ViewZ(farthest.into()));
                 let z = |v: f32| depth.as_ref().map_or(f64::NAN, |warp| warp.moment(ViewZ(v.into())).0);
-                let seen = seen_by(pixel, z);
+                let terms = terms_of(pixel, z);
                 let mut sums = PixelSums::<f64, 2>::default();
-                seen.iter().for_each(|&s| sums.add(s));
-                for (out, &s) in out.iter_mut().zip(&seen) {
-                    *out = match sums.look(s, [z(nearest), z(farthest)]) {
-                        Known::Transmittance(t) => t,
-                        Known::Features([x, count, log], [mean, spread]) => match self {
+                terms.iter().for_each(|&s| sums.add(s));
+                for (out, &s) in out.iter_mut().zip(&terms) {
+                    *out = match sums.classify(s, [z(nearest), z(farthest)]) {
+                        Pass2Input::Solved(t) => t,
+                        Pass2Input::Query([x, count, log], [mean, spread]) => match self {
                             Self::Bounds => {
                                 let others = libm::exp(log) - f64::from(recentred::ABSORBANCE_OFFSET);
                                 let variance = spread * (1.0 - mean * mean);
@@ -501,8 +501,8 @@ fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
         let context = fragments.context;
         let extractor = Extractor::for_list(mlp.feature_set(), &list, context.planes, context.depth_range)
             .map_err(|e| e.to_string())?;
-        let look = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
-        return Ok(mlp.forward_batch(&look.features));
+        let extracted = extractor.list(&list, 0..list.pixels()).map_err(|e| e.to_string())?;
+        return Ok(mlp.forward_batch(&extracted.features));
     }
     on_pixels(mlp, fragments, |pixel, out| {
         let (nearest, farthest) = ends(pixel);
@@ -513,7 +513,7 @@ fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
 }
 
 /// What the exported shader computes, operation by operation, in arithmetic `R`: pass 1, what is known of each fragment, the network.
-fn as_shader<R: Real>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) -> Answers {
+fn as_shader<R: Scalar>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) -> Answers {
     let whole = fragments
         .context
         .depth_range
@@ -574,7 +574,7 @@ pub(super) fn each_pixel(fragments: &Fragments, answer: impl Fn(Pixel<'_>, &mut 
 }
 
 /// Both passes over a pixel.
-fn answer_pixel<R: Real>(
+fn answer_pixel<R: Scalar>(
     mlp: &Mlp,
     pixel: Pixel<'_>,
     ends: [R; 2],
@@ -589,7 +589,7 @@ fn answer_pixel<R: Real>(
     }
 }
 
-fn answer_of<R: Real, const K: usize>(
+fn answer_of<R: Scalar, const K: usize>(
     mlp: &Mlp,
     pixel: Pixel<'_>,
     ends: [R; 2],
@@ -597,22 +597,22 @@ fn answer_of<R: Real, const K: usize>(
     absorbance: impl Fn(f32) -> R,
     out: &mut [f64],
 ) {
-    let seen: Vec<Seen<R>> = pixel
+    let terms: Vec<FragmentTerms<R>> = pixel
         .view_z
         .iter()
         .zip(pixel.alpha)
-        .map(|(&view_z, &alpha)| Seen {
+        .map(|(&view_z, &alpha)| FragmentTerms {
             view_z,
             z: z(view_z),
             absorbance: absorbance(alpha),
         })
         .collect();
     let mut sums = PixelSums::<R, K>::default();
-    seen.iter().for_each(|&s| sums.add(s));
-    for (out, &s) in out.iter_mut().zip(&seen) {
-        *out = match sums.look(s, ends) {
-            Known::Transmittance(t) => t.to_f64(),
-            Known::Features(first, measure) => {
+    terms.iter().for_each(|&s| sums.add(s));
+    for (out, &s) in out.iter_mut().zip(&terms) {
+        *out = match sums.classify(s, ends) {
+            Pass2Input::Solved(t) => t.to_f64(),
+            Pass2Input::Query(first, measure) => {
                 let row: Vec<f32> = first.iter().chain(&measure).map(|f| f.to_f64() as f32).collect();
                 // As nmt_fragment_transmittance does.
                 mlp.forward::<R>(&row).min(R::ONE).to_f64()

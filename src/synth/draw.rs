@@ -49,12 +49,12 @@ fn map<S: Simd>(simd: S, values: &mut [f64], becomes: impl Fn(f64x8<S>) -> f64x8
 
 /// The uniform law: low + scale u.
 #[derive(Debug, Clone, Copy)]
-struct Even {
+struct UniformInclusive {
     low: f64,
     scale: f64,
 }
 
-impl Even {
+impl UniformInclusive {
     /// On [min, max], both ends included: the greatest u, 1 − 2^−52, gives max.
     fn new(Range { min, max }: Range) -> Self {
         let greatest = 1.0 - f64::EPSILON;
@@ -76,9 +76,9 @@ impl Even {
 
 /// A uniform law that never leaves [min, max], whatever rounding does: min + (max − min) u.
 #[derive(Debug, Clone, Copy)]
-struct Between(Range);
+struct UniformLerp(Range);
 
-impl Between {
+impl UniformLerp {
     fn at(&self, u: f64) -> f64 {
         let Range { min, max } = self.0;
         (min + (max - min) * u).min(max)
@@ -176,12 +176,12 @@ impl Ahead {
     #[inline]
     fn provide(&mut self, rng: &mut Stream, wanted: usize) {
         if self.units.len() - self.at < Self::LEAST {
-            self.look(rng, wanted);
+            self.refill(rng, wanted);
         }
     }
 
     #[inline(never)]
-    fn look(&mut self, rng: &mut Stream, wanted: usize) {
+    fn refill(&mut self, rng: &mut Stream, wanted: usize) {
         #[inline(always)]
         fn all<S: Simd>(
             simd: S,
@@ -330,8 +330,14 @@ enum Count {
 
 #[derive(Debug, Clone)]
 enum Depth {
-    Window { law: Even, reading: DepthReading },
-    Moment { shape: Shape, half: LogUniform },
+    Window {
+        law: UniformInclusive,
+        reading: DepthReading,
+    },
+    Moment {
+        shape: Shape,
+        half: LogUniform,
+    },
 }
 
 #[derive(Debug, Clone)]
@@ -344,7 +350,7 @@ enum Shape {
 
 #[derive(Debug, Clone)]
 enum Alpha {
-    Uniform(Even, AlphaReading),
+    Uniform(UniformInclusive, AlphaReading),
     LogUniform(LogUniform, AlphaReading),
     Subrange(Range),
     NearOpaque { share: Range, low: LogUniform },
@@ -438,7 +444,7 @@ impl Depth {
         let shape = match config.depth {
             DepthLaw::Window { min, max, reading } => {
                 return Self::Window {
-                    law: Even::new(Range { min, max }),
+                    law: UniformInclusive::new(Range { min, max }),
                     reading,
                 };
             }
@@ -481,8 +487,8 @@ impl Depth {
 }
 
 /// Window depths of n fragments.
-fn draw_window(rng: &mut Stream, n: usize, law: &Even, reading: DepthReading, depth: &mut Vec<f64>) {
-    let anywhere = Even::new(Range { min: 0.0, max: 1.0 });
+fn draw_window(rng: &mut Stream, n: usize, law: &UniformInclusive, reading: DepthReading, depth: &mut Vec<f64>) {
+    let anywhere = UniformInclusive::new(Range { min: 0.0, max: 1.0 });
     match reading {
         DepthReading::PerFragment => {
             fill(rng, n, depth);
@@ -644,7 +650,9 @@ fn stretch(depth: &mut [f64], center: f64, half: f64) {
 impl Alpha {
     fn new(law: AlphaLaw) -> Self {
         match law {
-            AlphaLaw::Uniform { min, max, reading } => Self::Uniform(Even::new(Range { min, max }), reading),
+            AlphaLaw::Uniform { min, max, reading } => {
+                Self::Uniform(UniformInclusive::new(Range { min, max }), reading)
+            }
             AlphaLaw::LogUniform { min, max, reading } => {
                 Self::LogUniform(LogUniform::new(Range { min, max }), reading)
             }
@@ -671,8 +679,8 @@ impl Alpha {
             Self::Uniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
             Self::LogUniform(law, reading) => draw_shared(rng, n, |rng| law.draw(rng), *reading, scratch, out),
             Self::Subrange(range) => {
-                let (a, b) = (Between(*range).draw(rng), Between(*range).draw(rng));
-                let law = Between(Range {
+                let (a, b) = (UniformLerp(*range).draw(rng), UniformLerp(*range).draw(rng));
+                let law = UniformLerp(Range {
                     min: a.min(b),
                     max: a.max(b),
                 });
@@ -680,7 +688,7 @@ impl Alpha {
                 out.extend(units.iter().map(|&u| law.at(u) as f32));
             }
             Self::NearOpaque { share, low } => {
-                let (share, low) = (Between(*share).draw(rng), low.draw(rng));
+                let (share, low) = (UniformLerp(*share).draw(rng), low.draw(rng));
                 fill(rng, 2 * n, units);
                 out.extend(units.as_chunks().0.iter().map(|&[u, v]| {
                     let range = if u < share {
@@ -691,7 +699,7 @@ impl Alpha {
                     } else {
                         Range { min: 0.0, max: low }
                     };
-                    Between(range).at(v) as f32
+                    UniformLerp(range).at(v) as f32
                 }));
             }
         }
@@ -1028,7 +1036,10 @@ mod tests {
             (0.0, 0.0),
             (1.0 / 3.0, 0.7),
         ] {
-            let (ours, theirs) = (Even::new(range(min, max)), Uniform::new_inclusive(min, max).unwrap());
+            let (ours, theirs) = (
+                UniformInclusive::new(range(min, max)),
+                Uniform::new_inclusive(min, max).unwrap(),
+            );
             let (mut a, mut b) = (rng(), rng());
             for _ in 0..1000 {
                 let x = ours.draw(&mut a);

@@ -259,7 +259,7 @@ impl BurnOptimiser {
         let column = |values: Vec<f32>| -> Tensor<2> { Tensor::from_data(TensorData::new(values, [n, 1]), &tracked) };
         let absorbance = match self.answer {
             Answer::Sigmoid => None,
-            Answer::Fraction { column: at, offset } => Some(column(
+            Answer::AbsorbanceShare { column: at, offset } => Some(column(
                 features
                     .chunks_exact(width)
                     .map(|row| (libm::expf(row[at].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0))

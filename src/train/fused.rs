@@ -169,7 +169,7 @@ fn output<S: Simd>(
         let slope = s * (one - s);
         let (value, slope) = match answer {
             Answer::Sigmoid => (s, slope),
-            Answer::Fraction { column, offset } => {
+            Answer::AbsorbanceShare { column, offset } => {
                 let absorbance = absorbance(simd, block[column].load(simd), offset);
                 let value = exp(simd, -(absorbance * s));
                 (value, -(value * absorbance) * slope)

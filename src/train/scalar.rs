@@ -41,7 +41,7 @@ impl Scalar {
         let s = 1.0 / (1.0 + libm::exp(-inputs[self.shapes.len()][0]));
         let (value, slope) = match self.answer {
             Answer::Sigmoid => (s, s * (1.0 - s)),
-            Answer::Fraction { column, offset } => {
+            Answer::AbsorbanceShare { column, offset } => {
                 let absorbance =
                     (libm::exp(features[column].min(MAX_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
                 let value = libm::exp(-absorbance * s);

@@ -454,7 +454,7 @@ mod tests {
                 .to_string()
                 .contains("train.batch = 0")
         );
-        dataset.training.features[0] = f32::INFINITY;
+        dataset.training.targets[0] = f32::INFINITY;
         let config = config(1);
         assert!(matches!(
             train(&dataset, &job(&config, &path, false), &|| false, &mut |_| {}),

@@ -7,3 +7,4 @@ mod fuzz;
 mod layers;
 mod python;
 mod report;
+mod shaders;

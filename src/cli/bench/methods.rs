@@ -2,7 +2,7 @@
 
 use super::{Common, Turns, cells, merged};
 use crate::bench::Summary;
-use crate::bench::methods::{Clock, Contender, Cost, FrontTime, NONE, Setting, Table};
+use crate::bench::methods::{Candidate, Clock, Cost, FrontTime, NONE, Setting, Table};
 use crate::bench::scatter::{Captions, Point, is_drawn, svg};
 use crate::cli::Verdict;
 use crate::cli::predict::SkipName;
@@ -85,7 +85,7 @@ impl BenchMethods {
         }
         let context = self.view.context()?;
         let background = self.view.background()?;
-        let (contenders, demanded) = self.contenders()?;
+        let (candidates, demanded) = self.candidates()?;
         let plan = self.common.prepare()?;
         let gpu = if self.device.contains(&Device::Gpu) {
             self.gpu(ui)?
@@ -110,12 +110,12 @@ impl BenchMethods {
         for &device in &devices {
             let measured = match (device, gpu) {
                 (Device::Gpu, Some(gpu)) => turns.take(&format!("on {}", gpu.name()), |progress| {
-                    setting.on_gpu(gpu, &contenders, &self.format, progress)
+                    setting.on_gpu(gpu, &candidates, &self.format, progress)
                 })?,
                 _ => {
                     let name = cpu_name();
                     turns.take(&format!("on {name}"), |progress| {
-                        setting.on_cpu(&name, &contenders, progress)
+                        setting.on_cpu(&name, &candidates, progress)
                     })?
                 }
             };
@@ -186,8 +186,8 @@ impl BenchMethods {
     }
 
     /// What to measure, and the names of what was asked for by its own.
-    fn contenders(&self) -> anyhow::Result<(Vec<Contender>, HashSet<String>)> {
-        let mut contenders = Vec::new();
+    fn candidates(&self) -> anyhow::Result<(Vec<Candidate>, HashSet<String>)> {
+        let mut candidates = Vec::new();
         let (mut seen, mut demanded) = (HashSet::new(), HashSet::new());
         for name in &self.methods {
             let names = match name.as_str() {
@@ -202,16 +202,16 @@ impl BenchMethods {
                     demanded.insert(method.name());
                 }
                 if seen.insert(method.name()) {
-                    contenders.push(Contender::Method(method));
+                    candidates.push(Candidate::Method(method));
                 }
             }
         }
         for path in &self.model {
-            let contender = Contender::Network(Box::new(file::load(path)?));
-            demanded.insert(contender.name());
-            contenders.push(contender);
+            let candidate = Candidate::Network(Box::new(file::load(path)?));
+            demanded.insert(candidate.name());
+            candidates.push(candidate);
         }
-        Ok((contenders, demanded))
+        Ok((candidates, demanded))
     }
 
     /// The GPU; none, said aloud, where there is none and the CPU is measured too.

@@ -6,7 +6,7 @@ use crate::evaluate::gpu;
 use crate::evaluate::order::spread;
 use crate::evaluate::{MethodResult, Shuffled};
 use crate::gpu::Gpu;
-use crate::gpu::pipeline::Storage;
+use crate::gpu::pipeline::TargetPrecision;
 use crate::oit::Capabilities;
 
 /// What marks a method whose image depends on the order of the fragments.
@@ -113,7 +113,7 @@ fn order_note(result: &MethodResult) -> String {
 }
 
 /// What the GPU drew, as a table under its name.
-pub(super) fn gpu_rows(gpu: &Gpu, storage: Storage, results: &[Row]) -> String {
+pub(super) fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[Row]) -> String {
     if results.iter().all(|r| r.gpu.is_none()) {
         return String::new();
     }

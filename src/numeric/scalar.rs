@@ -7,7 +7,7 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 ///
 /// Transcendental functions come from the `libm` crate and not from the platform, so that the same input gives the same bits
 /// on every machine. Multiplication and addition stay separate: nothing here contracts to a fused multiply-add.
-pub trait Real:
+pub trait Scalar:
     Copy
     + PartialOrd
     + Send
@@ -61,7 +61,7 @@ pub trait Real:
 
 macro_rules! real {
     ($t:ty, $exp:path, $ln:path) => {
-        impl Real for $t {
+        impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const EPSILON: Self = <$t>::EPSILON;
