@@ -3,7 +3,7 @@
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
 use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, TargetPrecision};
 use crate::gpu::tiles::TilePasses;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::{Gpu, GpuError, MethodShader, Pass1};
 use crate::oit::Context;
 use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
@@ -81,6 +81,12 @@ fn render(
     storage: TargetPrecision,
     skip: Skip,
 ) -> Result<Rendered, GpuError> {
+    if method.pass1 != Pass1::Added {
+        return Err(GpuError::Source {
+            label: method.name.clone(),
+            reason: "its pass 1 is no sum that could be blended; 'nmt bench methods' runs it over the list".to_owned(),
+        });
+    }
     let range = method.depth_range(list, context.planes, context.depth_range)?;
     if !is_drawn(gpu, storage) {
         let passes = TilePasses::new(gpu, list, method, range, background)?;

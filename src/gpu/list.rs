@@ -1,7 +1,7 @@
 //! Both passes of a method over a fragment list in compute shaders: the arithmetic of a method without a renderer around it, each pass timed by itself.
 
 use super::device::{Dispatch, Gpu, GpuError, groups};
-use super::method::MethodShader;
+use super::method::{MethodShader, Pass1};
 use crate::pixel::{CameraPlanes, FragmentList};
 
 /// A fragment list on the device.
@@ -80,10 +80,11 @@ fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(nu
     var sums: array<f32, OIT_SUMS>;
     var nearest = 3.0e38;
     var farthest = 0.0;
+    OIT_PREPASS
     for (var i = oit_offsets[pixel]; i < oit_offsets[pixel + 1u]; i++) {
         let v = oit_view_z[i];
         let alpha = oit_alpha[i];
-        let term = oit_accumulate(OitFragment(v, oit_depth(v, range), alpha, oit_absorbance(alpha)));
+        let f = OitFragment(v, oit_depth(v, range), alpha, oit_absorbance(alpha));
         OIT_ADD
         nearest = min(nearest, v);
         farthest = max(farthest, v);
@@ -91,6 +92,13 @@ fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(nu
     OIT_STORE
 }
 ";
+
+/// The prepass of methods that need it.
+const PREPASS: &str = "for (var i = oit_offsets[pixel]; i < oit_offsets[pixel + 1u]; i++) {
+        nearest = min(nearest, oit_view_z[i]);
+        farthest = max(farthest, oit_view_z[i]);
+    }
+    let ends = vec2<f32>(nearest, farthest);";
 
 /// Pass 2 for compute, a thread a fragment.
 const WEIGH: &str = "
@@ -156,9 +164,16 @@ impl<'a> Passes<'a> {
         } else {
             ["0.0", "1.0", "1.0", "0.0", "0.0"].map(str::to_owned).to_vec()
         };
-        let add: Vec<String> = (0..k).map(|i| format!("sums[{i}] += term[{i}];")).collect();
+        let (prepass, add) = match method.pass1 {
+            Pass1::Added => {
+                let add: Vec<String> = (0..k).map(|i| format!("sums[{i}] += term[{i}];")).collect();
+                ("", format!("let term = oit_accumulate(f); {}", add.join(" ")))
+            }
+            Pass1::Inserted => (PREPASS, "oit_insert(&sums, f, ends.x, ends.y);".to_owned()),
+        };
         let accumulate = ACCUMULATE
-            .replace("OIT_ADD", &add.join(" "))
+            .replace("OIT_PREPASS", prepass)
+            .replace("OIT_ADD", &add)
             .replace("OIT_STORE", &store.join("\n    "));
         let load = format!(
             "{}\n    let state = OitPixel(array<f32, OIT_SUMS>({}), {});",

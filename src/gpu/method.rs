@@ -28,6 +28,17 @@ pub enum Composite {
     Average,
 }
 
+/// How pass 1 makes the numbers of a pixel from its fragments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pass1 {
+    /// It adds up what `oit_accumulate` says of each fragment: by blending, or a thread a pixel.
+    Added,
+    /// It hands the numbers, zeros at first, from one fragment of the pixel to the next, with the pixel's nearest and farthest v, which a prepass has
+    /// found: `fn oit_insert(sums: ptr<function, array<f32, K>>, f: OitFragment, nearest: f32, farthest: f32)`. A thread a pixel does it here; a
+    /// renderer needs an interlock, or where the numbers are sums after all, blending and the prepass.
+    Inserted,
+}
+
 /// A transparency method as WGSL.
 ///
 /// # Contract
@@ -48,6 +59,8 @@ pub struct MethodShader {
     pub sums: usize,
     /// Whether pass 2 looks at number and range of a pixel's fragments; where not, a renderer need not keep them.
     pub range: bool,
+    /// How pass 1 makes them; where [`Pass1::Inserted`], the source defines `oit_insert` in place of `oit_accumulate`, and no sum need be b0.
+    pub pass1: Pass1,
     /// Depth that `OitFragment.z` holds.
     pub depth: MomentDepthKind,
     /// How the colour is made.
@@ -156,6 +169,7 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
             name: label(),
             sums: k + 1,
             range: true,
+            pass1: Pass1::Added,
             depth: set.moment_depth(),
             composite: Composite::Normalised,
             source,

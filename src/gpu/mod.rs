@@ -11,7 +11,7 @@ pub mod pipeline;
 pub mod tiles;
 
 pub use device::{Gpu, GpuError};
-pub use method::MethodShader;
+pub use method::{MethodShader, Pass1};
 
 #[cfg(test)]
 pub(crate) mod tests {

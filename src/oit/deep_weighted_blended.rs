@@ -250,7 +250,13 @@ mod tests {
             assert_eq!(mlp.shape(), "3-10-8-1");
             let loss = mlp.provenance.validation_loss.unwrap();
             assert!(loss < 0.5 * variance, "{loss} of {variance}");
-            let constant = image_mse(&WeightedBlended { weight: Weight::Dwb22 }, &other);
+            let constant = image_mse(
+                &WeightedBlended {
+                    weight: Weight::Dwb22,
+                    ..WeightedBlended::default()
+                },
+                &other,
+            );
             let ours = image_mse(&DeepWeightedBlended::new(mlp).unwrap(), &other);
             assert!(ours < constant, "{ours} against {constant}");
         }

@@ -550,6 +550,7 @@ mod tests {
             &Geometry {
                 triangles,
                 particles: Vec::new(),
+                ..Geometry::default()
             },
             view,
         )
