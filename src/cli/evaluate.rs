@@ -1,6 +1,7 @@
 //! `nmt evaluate`
 
 mod methods;
+mod shadows;
 mod tables;
 
 use super::Verdict;
@@ -11,7 +12,7 @@ use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::order::{fragment_orders, judge_in_orders};
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
-use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Truth};
+use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
 use crate::gpu::pipeline::TargetPrecision;
 use crate::numeric::file::{Replace, may_write, write_atomically};
@@ -21,7 +22,7 @@ use crate::pixel::FragmentList;
 use crate::scene::BUILT_IN;
 use anyhow::bail;
 use clap::Args;
-use methods::{Requested, STORY};
+use methods::Requested;
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -32,7 +33,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "F.npz|SCENE", required = true, num_args = 1..)]
     fragments: Vec<String>,
     /// Methods, by name; "all" stands for every classic one, and without the option there are those that tell the story.
-    #[arg(long, value_delimiter = ',', default_values = STORY)]
+    #[arg(long, value_delimiter = ',')]
     methods: Vec<String>,
     /// Networks to evaluate beside them.
     #[arg(long, value_name = "MODEL.json", num_args = 1..)]
@@ -47,6 +48,12 @@ pub struct Evaluate {
     /// means over them. 0 takes fragments as they stand in the list.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(0..=100))]
     orders: u64,
+    /// Evaluate them also on glass that is tinted in its own colour by this strength, from 0 to 1: with one transmittance, and with one a channel.
+    #[arg(long, value_name = "S")]
+    tint: Option<f64>,
+    /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
+    #[arg(long, conflicts_with_all = ["gpu", "tint"])]
+    shadows: bool,
     /// Folder for images, contact sheets, comparison.md, comparison.svg and results.json.
     #[arg(long)]
     out: PathBuf,
@@ -103,6 +110,7 @@ struct Session<'a> {
 struct Row {
     cpu: MethodResult,
     gpu: Option<GpuResult>,
+    tinted: Option<TintedResult>,
     /// Whether it was asked for by its own name.
     demanded: bool,
 }
@@ -123,6 +131,13 @@ impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let session = self.session(ui)?;
         let scenes = self.scenes();
+        if self.shadows {
+            let named: Vec<(String, String)> = scenes.iter().cloned().zip(scene_names(&scenes)).collect();
+            if session.shadows(&named)? {
+                bail!("a method could not be applied; see above");
+            }
+            return Ok(Verdict::Fine);
+        }
         let mut results = Vec::new();
         for (scene, name) in scenes.iter().zip(scene_names(&scenes)) {
             let found = session.scene(scene, name)?;
@@ -145,6 +160,9 @@ impl Evaluate {
     /// Everything that can be refused before a scene is rendered.
     fn session<'a>(&'a self, ui: &'a Ui) -> anyhow::Result<Session<'a>> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
+        if let Some(wrong) = self.tint.filter(|s| !(0.0..=1.0).contains(s)) {
+            bail!("--tint {wrong}: a strength lies from 0 to 1");
+        }
         may_write(&self.out.join(RESULTS), replace)?;
         Ok(Session {
             options: self,
@@ -172,6 +190,10 @@ impl Session<'_> {
         let mut remarks = String::new();
         let mut sheet = self.sheet(&name, &truth, &mut remarks)?;
         let judged = self.judge(scene, &name, &truth)?;
+        let tinted = match self.options.tint {
+            Some(strength) if truth.image().is_ok() => Some((Tinted::new(&list, strength, self.background)?, strength)),
+            _ => None,
+        };
         let mut refused = Vec::new();
         let mut rows: Vec<Row> = Vec::new();
         let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
@@ -195,6 +217,10 @@ impl Session<'_> {
             rows.push(Row {
                 cpu: judged.result,
                 gpu: drawn,
+                tinted: match &tinted {
+                    Some((glass, s)) => Some(glass.judge(method, self.context, *s, self.background)?),
+                    None => None,
+                },
                 demanded: requested.demanded,
             });
         }
@@ -320,7 +346,12 @@ impl Session<'_> {
         let on_gpu = self.gpu.map_or_else(String::new, |gpu| {
             tables::gpu_rows(gpu, self.options.gpu_storage.into(), &found.rows)
         });
-        format!("{heading}{}{on_gpu}{}\n", tables::rows(&found.rows), found.remarks)
+        let tinted = tables::tinted_rows(&found.rows);
+        format!(
+            "{heading}{}{on_gpu}{tinted}{}\n",
+            tables::rows(&found.rows),
+            found.remarks
+        )
     }
 
     /// Writes the numbers of all scenes, and of several scenes a table and a chart.
@@ -407,6 +438,9 @@ fn with_scene(row: &Row, scene: &SceneResults) -> Value {
         object.insert("pixels".to_owned(), scene.list.pixels().into());
         object.insert("fragments".to_owned(), scene.list.len().into());
         object.insert("depth_complexity".to_owned(), scene.list.depth_complexity().into());
+        if let Some(tinted) = &row.tinted {
+            object.insert("tinted".to_owned(), json!(tinted));
+        }
         if let Some(gpu) = &row.gpu {
             object.insert(
                 "gpu".to_owned(),

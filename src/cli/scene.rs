@@ -37,6 +37,18 @@ pub struct SceneOptions {
     seed: Option<u64>,
 }
 
+impl SceneOptions {
+    /// Size of the image, where it is not the scene's own.
+    pub fn size(&self) -> Option<(u32, u32)> {
+        self.size
+    }
+
+    /// Seed, where it is not the scene's own.
+    pub fn seed(&self) -> Option<u64> {
+        self.seed
+    }
+}
+
 /// How fragments are looked at: the camera that saw them, the range of depth, and what lies behind.
 #[derive(Args)]
 pub struct ViewOptions {

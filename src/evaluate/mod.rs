@@ -7,13 +7,16 @@ pub mod image;
 pub mod judge;
 pub mod order;
 pub mod picture;
+pub mod shadow;
 mod text;
+pub mod tinted;
 
 pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};
 pub use order::{OrderResult, OrderedList, Shuffled};
+pub use tinted::{Tinted, TintedResult};
 
 use crate::numeric::file::FileError;
 use crate::numeric::tolerance::AbsoluteError;

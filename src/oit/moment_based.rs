@@ -77,11 +77,6 @@ pub(super) fn sort(samples: &mut [Sample]) {
     samples.sort_unstable_by(|a, b| a.z.0.total_cmp(&b.z.0).then(a.absorbance.total_cmp(&b.absorbance)));
 }
 
-/// The part of a name that says by what bias moments are kept valid, where it is not the published one.
-pub(super) fn bias_suffix(bias: Option<f64>) -> String {
-    bias.map_or_else(String::new, |bias| format!(":bias={bias:e}"))
-}
-
 /// The exact answer about a fragment where there is one: nearest, alone, farthest, in this order, decided on view depth bit for bit.
 ///
 /// # Domain

@@ -2,8 +2,8 @@
 
 use super::Method;
 use super::capabilities::{Capabilities, Needs, RANGE_BITS, sums};
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
-use super::registry::{Arguments, Entry, ParseError};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
 use crate::numeric::quantise::round_f16;
@@ -13,19 +13,19 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-power-4",
-        pattern: "moment-power-4[:f32|unorm16][:bias=B][+own], moment-power-4:nlqm",
+        pattern: "moment-power-4[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-4:nlqm",
         names,
         build: build::<2, 5>,
     },
     Entry {
         head: "moment-power-6",
-        pattern: "moment-power-6[:f32|unorm16][:bias=B][+own], moment-power-6:nlqm",
+        pattern: "moment-power-6[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-6:nlqm",
         names,
         build: build::<3, 7>,
     },
     Entry {
         head: "moment-power-8",
-        pattern: "moment-power-8[:f32|unorm16][:bias=B][+own], moment-power-8:nlqm",
+        pattern: "moment-power-8[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-8:nlqm",
         names,
         build: build::<4, 9>,
     },
@@ -39,8 +39,8 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let (storage, strength) = arguments.with_bias()?;
-    let storage = match storage {
+    let told = arguments.of_moments()?;
+    let storage = match told.storage {
         None => MomentStorage::F64,
         Some("f32") => MomentStorage::F32,
         Some("unorm16") => MomentStorage::Unorm16,
@@ -50,7 +50,11 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
     Ok(Box::new(PerPixel {
-        family: Power::<N, M> { storage, strength },
+        family: Power::<N, M> {
+            storage,
+            strength: told.bias,
+            overestimation: told.overestimation,
+        },
         own: arguments.own,
     }))
 }
@@ -63,6 +67,8 @@ struct Power<const N: usize, const M: usize> {
     storage: MomentStorage,
     /// Strength of the bias in place of the published one.
     strength: Option<f64>,
+    /// Overestimation in place of the usual ones.
+    overestimation: Option<f64>,
 }
 
 impl<const N: usize, const M: usize> Power<N, M> {
@@ -97,7 +103,7 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
             "moment-power-{}{}{}",
             2 * N,
             self.storage.suffix(),
-            bias_suffix(self.strength)
+            MomentArguments::suffix(self.strength, self.overestimation)
         )
     }
 
@@ -178,11 +184,11 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     }
 
     fn transmittance(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OVERESTIMATION))
     }
 
     fn transmittance_of_others(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OTHERS_OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OTHERS_OVERESTIMATION))
     }
 }
 

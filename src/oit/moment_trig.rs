@@ -2,8 +2,8 @@
 
 use super::Method;
 use super::capabilities::{Capabilities, Needs, RANGE_BITS};
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample, bias_suffix};
-use super::registry::{Arguments, Entry, ParseError};
+use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::MomentStorage;
 use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
@@ -15,19 +15,19 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-trig-2",
-        pattern: "moment-trig-2[:f32|unorm16][:bias=B][+own]",
+        pattern: "moment-trig-2[:f32|unorm16][:bias=B][:overestimation=O][+own]",
         names,
         build: build::<2>,
     },
     Entry {
         head: "moment-trig-3",
-        pattern: "moment-trig-3[:f32|unorm16][:bias=B][+own]",
+        pattern: "moment-trig-3[:f32|unorm16][:bias=B][:overestimation=O][+own]",
         names,
         build: build::<3>,
     },
     Entry {
         head: "moment-trig-4",
-        pattern: "moment-trig-4[:f32|unorm16][:bias=B][+own]",
+        pattern: "moment-trig-4[:f32|unorm16][:bias=B][:overestimation=O][+own]",
         names,
         build: build::<4>,
     },
@@ -41,15 +41,19 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let (storage, bias) = arguments.with_bias()?;
-    let storage = match storage {
+    let told = arguments.of_moments()?;
+    let storage = match told.storage {
         None => MomentStorage::F64,
         Some("f32") => MomentStorage::F32,
         Some("unorm16") => MomentStorage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
     Ok(Box::new(PerPixel {
-        family: Trigonometric::<M> { storage, bias },
+        family: Trigonometric::<M> {
+            storage,
+            bias: told.bias,
+            overestimation: told.overestimation,
+        },
         own: arguments.own,
     }))
 }
@@ -62,6 +66,8 @@ struct Trigonometric<const M: usize> {
     storage: MomentStorage,
     /// The bias in place of the published one.
     bias: Option<f64>,
+    /// Overestimation in place of the usual ones.
+    overestimation: Option<f64>,
 }
 
 impl<const M: usize> MomentBased for Trigonometric<M> {
@@ -69,7 +75,11 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     type Curve = TrigonometricCurve<f64, M>;
 
     fn name(&self) -> String {
-        format!("moment-trig-{M}{}{}", self.storage.suffix(), bias_suffix(self.bias))
+        format!(
+            "moment-trig-{M}{}{}",
+            self.storage.suffix(),
+            MomentArguments::suffix(self.bias, self.overestimation)
+        )
     }
 
     /// b_0 and M complex moments, in f32 where nothing is rounded to 16 bits (MKKP18 Table 1).
@@ -133,10 +143,10 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OVERESTIMATION))
     }
 
     fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OTHERS_OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OTHERS_OVERESTIMATION))
     }
 }

@@ -54,22 +54,28 @@ impl Arguments<'_> {
         }
     }
 
-    /// The argument without a moment bias at its end, `:bias=B`, and that bias.
+    /// What stands between the colons of a method of moments: storage, `bias=B`, `overestimation=O`, in any order.
     ///
     /// # Errors
-    /// [`ParseError::Argument`] where B is not from 0 to 1.
-    pub fn with_bias(&self) -> Result<(Option<&str>, Option<f64>), ParseError> {
-        let Some(argument) = self.argument else {
-            return Ok((None, None));
-        };
-        let (rest, bias) = match argument.rsplit_once(':').unwrap_or(("", argument)) {
-            (rest, last) if last.starts_with("bias=") => (rest, &last["bias=".len()..]),
-            _ => return Ok((Some(argument), None)),
-        };
-        match bias.parse::<f64>() {
-            Ok(bias) if (0.0..=1.0).contains(&bias) => Ok(((!rest.is_empty()).then_some(rest), Some(bias))),
-            _ => Err(self.wrong("expected a bias from 0 to 1")),
+    /// [`ParseError::Argument`] where a number is not from 0 to 1, or something stands there twice.
+    pub fn of_moments(&self) -> Result<MomentArguments<'_>, ParseError> {
+        let mut found = MomentArguments::default();
+        for part in self.argument.into_iter().flat_map(|a| a.split(':')) {
+            let (slot, text) = if let Some(text) = part.strip_prefix("bias=") {
+                (&mut found.bias, text)
+            } else if let Some(text) = part.strip_prefix("overestimation=") {
+                (&mut found.overestimation, text)
+            } else if found.storage.replace(part).is_none() {
+                continue;
+            } else {
+                return Err(self.wrong("expected one storage"));
+            };
+            match text.parse::<f64>() {
+                Ok(number) if (0.0..=1.0).contains(&number) && slot.is_none() => *slot = Some(number),
+                _ => return Err(self.wrong("expected a bias and an overestimation from 0 to 1")),
+            }
         }
+        Ok(found)
     }
 
     /// Checks that nothing stands after the head but `+own`.
@@ -82,6 +88,26 @@ impl Arguments<'_> {
         } else {
             Err(self.wrong("expected no argument"))
         }
+    }
+}
+
+/// What a method of moments may be told in its name.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MomentArguments<'a> {
+    /// What stands there but for the options.
+    pub storage: Option<&'a str>,
+    /// Moment bias in place of the published one.
+    pub bias: Option<f64>,
+    /// Overestimation in place of the usual one.
+    pub overestimation: Option<f64>,
+}
+
+impl MomentArguments<'_> {
+    /// The options as they stand in a name, bias first.
+    pub fn suffix(bias: Option<f64>, overestimation: Option<f64>) -> String {
+        let bias = bias.map_or_else(String::new, |bias| format!(":bias={bias:e}"));
+        let overestimation = overestimation.map_or_else(String::new, |o| format!(":overestimation={o}"));
+        format!("{bias}{overestimation}")
     }
 }
 
@@ -230,12 +256,15 @@ mod tests {
         assert_ne!(of("moment-power-4"), of("moment-power-4:bias=1e-4"));
         assert_eq!(of("moment-trig-2:f32+own"), of("moment-trig-2:f32:bias=4e-7+own"));
         assert_ne!(of("moment-trig-2"), of("moment-trig-2:bias=1e-2"));
+        assert_eq!(of("moment-power-6"), of("moment-power-6:overestimation=0.25"));
+        assert_ne!(of("moment-trig-2"), of("moment-trig-2:overestimation=0.5"));
     }
 
     #[test]
     fn wrong_names_are_explained() {
         for (name, part) in [
-            ("moment-power-4:bias=2", "a bias from 0 to 1"),
+            ("moment-power-4:bias=2", "a bias and an overestimation from 0 to 1"),
+            ("moment-power-4:f32:f32", "expected one storage"),
             ("moment-power-5", "known are abuffer, "),
             ("", "there is no method ''"),
             (

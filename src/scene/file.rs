@@ -1,6 +1,6 @@
 //! Scene files: what is to be seen, and from where, in TOML.
 
-use super::camera::{Camera, Vec3, cross, dot, sub, unit};
+use super::camera::{Camera, Vec3, View, cross, dot, sub, unit};
 use super::mesh::{self, Affine, IDENTITY, apply, compose};
 use super::raster::{Geometry, Vertex, rasterise};
 use super::{BUILT_IN, Options, SceneError, procedural};
@@ -20,6 +20,8 @@ pub struct SceneFile {
     pub seed: Option<u64>,
     /// The camera; a built-in scene has one of its own where none is given.
     pub camera: Option<Camera>,
+    /// A spot light, described as the camera that sees what it shines on; a built-in scene has one of its own where none is given.
+    pub light: Option<Camera>,
     /// Meshes; none where a built-in scene is named.
     #[serde(default, rename = "mesh")]
     pub meshes: Vec<MeshEntry>,
@@ -97,6 +99,7 @@ impl SceneFile {
             built_in: Some(name.to_owned()),
             seed: None,
             camera: None,
+            light: None,
             meshes: Vec::new(),
             path: name.into(),
         })
@@ -182,8 +185,37 @@ impl SceneFile {
     ///
     /// # Errors
     /// [`SceneError`] for a mesh that cannot be read or a picture that would take too much memory.
+    /// The file that this was read from.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The light, or that of a built-in scene.
+    pub(super) fn light_camera(&self) -> Result<Camera, SceneError> {
+        match (self.light, &self.built_in) {
+            (Some(light), _) => Ok(light),
+            (None, Some(name)) => Ok(procedural::light(name)),
+            (None, None) => Err(SceneError::field(
+                &self.path,
+                "light",
+                "it is missing".to_owned(),
+                "a [light] with the fields of a camera",
+            )),
+        }
+    }
+
     /// The fragments, objects drawn in their own order or in a random one.
     pub(super) fn build(&self, options: &Options, draw_order: Option<u64>) -> Result<FragmentList, SceneError> {
+        let (geometry, view) = self.seen(options)?;
+        let geometry = match draw_order {
+            Some(seed) => geometry.in_random_order(seed),
+            None => geometry,
+        };
+        rasterise(&geometry, &view)
+    }
+
+    /// The geometry and the camera's view of it.
+    pub(super) fn seen(&self, options: &Options) -> Result<(Geometry, View), SceneError> {
         self.validate()?;
         let mut camera = match (&self.camera, &self.built_in) {
             (Some(camera), _) => *camera,
@@ -205,11 +237,7 @@ impl SceneFile {
             Some(name) => procedural::geometry(name, options.seed.or(self.seed).unwrap_or(1), view.eye),
             None => self.mesh_geometry()?,
         };
-        let geometry = match draw_order {
-            Some(seed) => geometry.in_random_order(seed),
-            None => geometry,
-        };
-        rasterise(&geometry, &view)
+        Ok((geometry, view))
     }
 
     fn mesh_geometry(&self) -> Result<Geometry, SceneError> {

@@ -7,6 +7,7 @@ mod mesh;
 pub mod npz;
 mod procedural;
 mod raster;
+pub mod shadow;
 
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile};

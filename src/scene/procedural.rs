@@ -32,6 +32,23 @@ pub(super) fn camera(name: &str) -> Camera {
     }
 }
 
+/// The light of a built-in scene, above the viewer's left shoulder.
+pub(super) fn light(name: &str) -> Camera {
+    let camera = camera(name);
+    let (middle, size) = match name {
+        "curtains" => ([0.0, 0.0, -4.0], 2.5),
+        _ => (camera.look_at, 1.0),
+    };
+    Camera {
+        position: add(middle, scale([-2.6, 6.4, 3.2], size)),
+        look_at: middle,
+        vertical_fov: 46.0,
+        near: 0.5,
+        far: 40.0,
+        ..camera
+    }
+}
+
 /// The geometry of a built-in scene for a viewer at `eye`.
 pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
     let mut out = Builder {

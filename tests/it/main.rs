@@ -5,6 +5,7 @@ mod cli;
 mod docs;
 mod fuzz;
 mod layers;
+mod methods;
 mod python;
 mod report;
 mod shaders;

@@ -4,7 +4,7 @@ use crate::cli::{Workplace, nmt};
 use std::process::Command;
 
 /// The interpreter that has NumPy and onnxruntime; a visible skip where there is none, a failure where onnxruntime is required.
-fn python() -> Option<String> {
+pub fn python() -> Option<String> {
     let found = std::env::var("NMT_PYTHON").ok();
     let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
     if found.is_none() {

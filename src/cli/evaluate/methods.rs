@@ -1,6 +1,6 @@
 //! The methods that were asked for.
 
-use super::Evaluate;
+use super::{Evaluate, shadows};
 use crate::export::Format;
 use crate::features::MomentFrame;
 use crate::gpu::{GpuError, MethodShader};
@@ -43,7 +43,13 @@ impl Evaluate {
     pub(super) fn requested(&self) -> anyhow::Result<Vec<Requested>> {
         let mut methods = Vec::new();
         let mut seen = HashSet::new();
-        for name in &self.methods {
+        let story = || if self.shadows { &shadows::STORY[..] } else { &STORY[..] };
+        let names = if self.methods.is_empty() {
+            story().iter().map(|&name| name.to_owned()).collect()
+        } else {
+            self.methods.clone()
+        };
+        for name in &names {
             let (names, demanded) = if name == "all" {
                 (all_names(), false)
             } else {
@@ -106,8 +112,10 @@ mod tests {
     #[test]
     fn the_story_is_part_of_all() {
         let all = all_names();
-        for name in STORY {
+        for name in STORY.into_iter().chain(shadows::STORY) {
             assert_eq!(parse(name).unwrap().name(), name);
+        }
+        for name in STORY {
             assert!(all.iter().any(|n| n == name), "{name}");
         }
     }

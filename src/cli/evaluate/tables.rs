@@ -152,6 +152,36 @@ pub(super) fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[Row]) -> 
     format!("\n{}, {how}, against the images above:\n{}", gpu.name(), table(&lines))
 }
 
+/// Errors on tinted glass, the least with three channels first; nothing where none was asked for.
+pub(super) fn tinted_rows(results: &[Row]) -> String {
+    let mut rows: Vec<_> = results
+        .iter()
+        .filter_map(|r| Some((&r.cpu.method, r.tinted.as_ref()?)))
+        .collect();
+    let Some((_, first)) = rows.first() else {
+        return String::new();
+    };
+    let heading = format!("\nglass tinted by {}, image MSE x1e-4:\n", first.strength);
+    rows.sort_by(|a, b| a.1.three_channel_image_mse.total_cmp(&b.1.three_channel_image_mse));
+    let mut lines = vec![cells([
+        "method",
+        "one transmittance",
+        "one a channel",
+        "bits/pixel of three",
+    ])];
+    for (method, tinted) in rows {
+        lines.push(vec![
+            method.clone(),
+            number(Some(tinted.scalar_image_mse), |x| format!("{:.4}", x * 1e4)),
+            number(Some(tinted.three_channel_image_mse), |x| format!("{:.4}", x * 1e4)),
+            tinted
+                .three_channel_bits_per_pixel
+                .map_or("unbounded".to_owned(), |bits| bits.to_string()),
+        ]);
+    }
+    format!("{heading}{}", table(&lines))
+}
+
 /// A method over all scenes.
 pub(super) struct Compared<'a> {
     pub method: &'a str,
@@ -251,6 +281,7 @@ mod tests {
                 .unwrap()
                 .result,
             gpu: None,
+            tinted: None,
             demanded: method != "weighted-blended:dwb22-shader",
         };
         let rows = [
