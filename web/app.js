@@ -49,7 +49,8 @@ function say(html) {
   $("message").innerHTML = html ?? "";
 }
 
-const escape = (s) => String(s).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
+const escape = (s) =>
+  String(s).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 
 function fail(error) {
   console.error(error);
@@ -138,7 +139,10 @@ async function tick(now) {
   const measure = (stale && rested && !state.turn) || periodic;
   if (measure) tick.measured = now;
   try {
-    const found = await draw({ measure });
+    // Where a CPU draws, exact images wait until the camera rests.
+    const light = renderer.software && !rested && state.mode !== "image";
+    if (light) dirty = true;
+    const found = await draw({ measure, ...(light ? { mode: "image" } : {}) });
     if (found && view === viewNumber && !found.skipped) keep(name, found);
     else if (found && state.turn) keep(name, found);
   } catch (error) {
@@ -220,17 +224,22 @@ function showMeasurements() {
     row.classList.toggle("stale", !!found && found.view !== viewNumber);
     row.classList.toggle("best", others.length > 1 && !exact && found?.view === viewNumber && found.mse === best);
   }
-  const facts = [["", `<b>${escape(renderer.adapter)}</b>, ${renderer.api}`], ["", `${renderer.width} × ${renderer.height}`]];
+  const facts = [
+    ["", `<b>${escape(renderer.adapter)}</b>, ${renderer.api}`],
+    ["", `${renderer.width} × ${renderer.height}`, "more"],
+  ];
   if (now) {
     const mean = now.covered ? now.fragments / now.covered : 0;
-    facts.push(["layers ", `<b>${mean.toFixed(1)}</b> mean, <b>${now.most}</b> most`]);
+    facts.push(["layers ", `<b>${mean.toFixed(1)}</b> mean, <b>${now.most}</b> most`, "more"]);
     if (method(state.method).kind !== "lists") facts.push(["error ", `<b>${power(now.mse)}</b>`]);
     if (now.seconds != null) facts.push(["GPU ", `<b>${milliseconds(now.seconds)} ms</b>`]);
-    if (now.exactSeconds != null && method(state.method).kind !== "lists") facts.push(["exact ", `${milliseconds(now.exactSeconds)} ms`]);
+    if (now.exactSeconds != null && method(state.method).kind !== "lists") {
+      facts.push(["exact ", `${milliseconds(now.exactSeconds)} ms`, "more"]);
+    }
     if (now.bands > 1) facts.push(["", `lists in ${now.bands} bands`]);
     if (now.overflow) facts.push(["", "<b>lists overflow: pink pixels are incomplete</b>"]);
   }
-  $("facts").innerHTML = facts.map(([name, value]) => `<li>${name}${value}</li>`).join("");
+  $("facts").innerHTML = facts.map(([name, value, more = ""]) => `<li class="${more}">${name}${value}</li>`).join("");
   $("legend-to").textContent = state.mode === "count" ? Math.max(4, now?.most ?? 32) : `${ERROR_SCALE}`;
 }
 
@@ -246,7 +255,9 @@ function showState() {
   pressed($("scenes"), state.scene);
   pressed($("methods").tBodies[0], state.method);
   const m = method(state.method);
-  $("method-note").textContent = renderer.support(m.name).reason ? `${m.title} ${renderer.support(m.name).reason}.` : m.note;
+  $("method-note").textContent = renderer.support(m.name).reason
+    ? `${m.title} ${renderer.support(m.name).reason}.`
+    : m.note;
   $("scene-note").textContent = SCENES.find((s) => s.name === state.scene)?.note ?? scene?.title ?? "";
   $("opacity").value = Math.log2(state.opacity);
   $("opacity-value").textContent = `× ${state.opacity.toFixed(2)}`;
@@ -303,7 +314,8 @@ function setScene(found) {
   state.camera = { ...found.view, target: [...found.view.target] };
   measured = new Map();
   renderer.setScene(scene);
-  if (renderer.support(state.method).reason) state.method = METHODS.find((m) => !renderer.support(m.name).reason && m.kind === "blended").name;
+  if (renderer.support(state.method).reason)
+    state.method = METHODS.find((m) => !renderer.support(m.name).reason && m.kind === "blended").name;
   say(null);
   showNotes([...reasons, ...renderer.notes, ...(scene.notes ?? [])]);
   changed();
@@ -453,12 +465,17 @@ function watchPointer() {
     }
     pointers.set(event.pointerId, Object.assign(event, {}));
   });
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+  for (const end of ["pointerup", "pointercancel"])
+    canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    if (!scene?.size) zoom(Math.exp(Math.min(60, Math.max(-60, event.deltaY)) * 0.003));
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      if (!scene?.size) zoom(Math.exp(Math.min(60, Math.max(-60, event.deltaY)) * 0.003));
+    },
+    { passive: false },
+  );
   canvas.addEventListener("keydown", (event) => {
     const turn = { ArrowLeft: [-12, 0], ArrowRight: [12, 0], ArrowUp: [0, -12], ArrowDown: [0, 12] }[event.key];
     if (turn) orbit(...turn);
@@ -475,7 +492,10 @@ function watchPointer() {
     showState();
   };
   divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
-  divider.addEventListener("pointermove", (event) => divider.hasPointerCapture(event.pointerId) && place(event.clientX));
+  divider.addEventListener(
+    "pointermove",
+    (event) => divider.hasPointerCapture(event.pointerId) && place(event.clientX),
+  );
   divider.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
     if (!step) return;
@@ -509,7 +529,8 @@ async function start() {
   reasons = opened.reasons;
   if (query.get("nodes")) renderer.maxNodes = Number(query.get("nodes"));
   renderer.lost?.then((info) => {
-    if (info.reason !== "destroyed") fail(new Error(`The graphics device was lost: ${info.message || "no reason given"}. Load the page again.`));
+    if (info.reason !== "destroyed")
+      fail(new Error(`The graphics device was lost: ${info.message || "no reason given"}. Load the page again.`));
   });
   buildPanel();
   watchPointer();

@@ -2,8 +2,8 @@
 
 use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
-use crate::numeric::Scalar;
 use crate::numeric::quantise::round_f16_of_f32 as half;
+use crate::numeric::{Real, Scalar};
 use rayon::prelude::*;
 
 /// What the last layer sees of a row; `met` is shown every sum on the way.
@@ -42,8 +42,8 @@ pub fn forward_batch(mlp: &Mlp, limit: f32, rows: &[f32]) -> Vec<f32> {
         match mlp.feature_set().answer() {
             Answer::Sigmoid => logit.sigmoid(),
             Answer::AbsorbanceShare { column, offset } => {
-                let absorbance = (Scalar::exp(row[column].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0);
-                Scalar::exp(-(absorbance * logit.sigmoid()).min(80.0))
+                let absorbance = (Real::exp(row[column].min(MAX_LOG_ABSORBANCE)) - offset).max(0.0);
+                Real::exp(-(absorbance * logit.sigmoid()).min(80.0))
             }
         }
     };

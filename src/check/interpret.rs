@@ -19,8 +19,10 @@ pub enum Value<const L: usize> {
     Lanes(Arc<[f32; L]>),
     /// A truth value a lane.
     Bools(Arc<[bool; L]>),
-    /// An index, the same in every lane.
+    /// An index or a word of 32 bits, the same in every lane.
     Index(u32),
+    /// A word of 32 bits a lane.
+    Words(Arc<[u32; L]>),
     /// A vector, matrix (of columns) or array.
     Composite(Arc<[Self]>),
 }
@@ -68,6 +70,7 @@ impl Value<1> {
             Self::Bools(b) => Value::Bools(Arc::new([b[0]; L])),
             Self::Composite(items) => Value::Composite(items.iter().map(Self::in_lanes).collect::<Result<_>>()?),
             Self::Lanes(x) => Value::Uniform(x[0]),
+            Self::Words(x) => Value::Index(x[0]),
         })
     }
 }
@@ -161,6 +164,60 @@ impl<const L: usize> Value<L> {
         Ok(Self::Bools(Arc::new(out)))
     }
 
+    /// The word in every lane, where these are words.
+    fn words(&self) -> Option<[u32; L]> {
+        match self {
+            Self::Index(word) => Some([*word; L]),
+            Self::Words(words) => Some(**words),
+            _ => None,
+        }
+    }
+
+    /// The word in a lane.
+    ///
+    /// # Errors
+    /// [`InterpretError::Operands`] where it is no word.
+    pub fn word(&self, lane: usize) -> Result<u32> {
+        self.words().map(|w| w[lane]).ok_or(InterpretError::Operands("a word"))
+    }
+
+    /// Two words a lane make one, or a truth value.
+    fn words_with(&self, other: &Self, op: BinaryOperator) -> Option<Result<Self>> {
+        let (a, b) = (self.words()?, other.words()?);
+        let make = |f: fn(u32, u32) -> u32| Ok(Self::Words(Arc::new(std::array::from_fn(|l| f(a[l], b[l])))));
+        let compare = |f: fn(&u32, &u32) -> bool| Ok(Self::Bools(Arc::new(std::array::from_fn(|l| f(&a[l], &b[l])))));
+        Some(match op {
+            BinaryOperator::Add => make(u32::wrapping_add),
+            BinaryOperator::Subtract => make(u32::wrapping_sub),
+            BinaryOperator::Multiply => make(u32::wrapping_mul),
+            BinaryOperator::And => make(|a, b| a & b),
+            BinaryOperator::InclusiveOr => make(|a, b| a | b),
+            BinaryOperator::ExclusiveOr => make(|a, b| a ^ b),
+            BinaryOperator::ShiftLeft => make(u32::wrapping_shl),
+            BinaryOperator::ShiftRight => make(u32::wrapping_shr),
+            BinaryOperator::Less => compare(u32::lt),
+            BinaryOperator::LessEqual => compare(u32::le),
+            BinaryOperator::Greater => compare(u32::gt),
+            BinaryOperator::GreaterEqual => compare(u32::ge),
+            BinaryOperator::Equal => compare(u32::eq),
+            BinaryOperator::NotEqual => compare(u32::ne),
+            other => unsupported(other),
+        })
+    }
+
+    /// Two truth values a lane make one.
+    fn bools_with(&self, other: &Self, op: BinaryOperator) -> Option<Result<Self>> {
+        let (Self::Bools(a), Self::Bools(b)) = (self, other) else {
+            return None;
+        };
+        let make = |f: fn(bool, bool) -> bool| Ok(Self::Bools(Arc::new(std::array::from_fn(|l| f(a[l], b[l])))));
+        Some(match op {
+            BinaryOperator::And | BinaryOperator::LogicalAnd => make(|a, b| a & b),
+            BinaryOperator::InclusiveOr | BinaryOperator::LogicalOr => make(|a, b| a | b),
+            other => unsupported(other),
+        })
+    }
+
     fn columns(&self) -> Option<&[Self]> {
         match self {
             Self::Composite(items) if matches!(items.first(), Some(Self::Composite(_))) => Some(items),
@@ -202,6 +259,10 @@ impl<const L: usize> Value<L> {
         let Self::Bools(c) = condition else {
             return Err(InterpretError::Operands("select"));
         };
+        if let (Some(accept), Some(reject)) = (accept.words(), reject.words()) {
+            let chosen = std::array::from_fn(|lane| if c[lane] { accept[lane] } else { reject[lane] });
+            return Ok(Self::Words(Arc::new(chosen)));
+        }
         let mut out = [0.0; L];
         for (lane, out) in out.iter_mut().enumerate() {
             *out = if c[lane] {
@@ -672,6 +733,9 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             } => self.value(*expr)?.map(&|x| -x),
             Expression::Binary { op, left, right } => {
                 let (a, b) = (self.value(*left)?, self.value(*right)?);
+                if let Some(value) = a.words_with(&b, *op).or_else(|| a.bools_with(&b, *op)) {
+                    return value;
+                }
                 match op {
                     BinaryOperator::Add => a.zip(&b, &|a, b| a + b),
                     BinaryOperator::Subtract => a.zip(&b, &|a, b| a - b),
@@ -686,11 +750,35 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                     other => unsupported(other),
                 }
             }
-            Expression::As {
+            Expression::Unary {
+                op: UnaryOperator::LogicalNot,
                 expr,
-                kind: naga::ScalarKind::Float,
-                convert: Some(2 | 4),
-            } => self.value(*expr),
+            } => match self.value(*expr)? {
+                Value::Bools(b) => Ok(Value::Bools(Arc::new(b.map(|b| !b)))),
+                _ => Err(InterpretError::Operands("!")),
+            },
+            Expression::As { expr, kind, convert } => {
+                let value = self.value(*expr)?;
+                match (kind, convert, value.words()) {
+                    (naga::ScalarKind::Float, Some(2 | 4), None) => Ok(value),
+                    (naga::ScalarKind::Float, Some(4), Some(words)) => Ok(Value::each(|lane| words[lane] as f32)),
+                    (naga::ScalarKind::Float, None, Some(words)) => Ok(Value::each(|lane| f32::from_bits(words[lane]))),
+                    (naga::ScalarKind::Uint, Some(4), Some(_)) => Ok(value),
+                    (naga::ScalarKind::Uint, _, None) => {
+                        let mut words = [0; L];
+                        for (lane, word) in words.iter_mut().enumerate() {
+                            let x = value.lane(lane)?;
+                            *word = if convert.is_some() { x as u32 } else { x.to_bits() };
+                        }
+                        Ok(Value::Words(Arc::new(words)))
+                    }
+                    _ => unsupported(Expression::As {
+                        expr: *expr,
+                        kind: *kind,
+                        convert: *convert,
+                    }),
+                }
+            }
             Expression::Select {
                 condition,
                 accept,
@@ -703,7 +791,19 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                 let b = arg1.map(|b| self.value(b)).transpose()?;
                 let c = arg2.map(|c| self.value(c)).transpose()?;
                 match (fun, b, c) {
+                    (MathFunction::Max | MathFunction::Min, Some(b), None) if a.words().is_some() => {
+                        let (a, b) = (a.words(), b.words());
+                        let (Some(a), Some(b)) = (a, b) else {
+                            return Err(InterpretError::Operands("min or max"));
+                        };
+                        let greater = *fun == MathFunction::Max;
+                        let chosen = |l: usize| if greater { a[l].max(b[l]) } else { a[l].min(b[l]) };
+                        Ok(Value::Words(Arc::new(std::array::from_fn(chosen))))
+                    }
                     (MathFunction::Exp, None, None) => a.map(&libm::expf),
+                    (MathFunction::Exp2, None, None) => a.map(&libm::exp2f),
+                    (MathFunction::Log2, None, None) => a.map(&libm::log2f),
+                    (MathFunction::Floor, None, None) => a.map(&f32::floor),
                     (MathFunction::Log, None, None) => a.map(&libm::logf),
                     (MathFunction::Abs, None, None) => a.map(&f32::abs),
                     (MathFunction::Sqrt, None, None) => a.map(&f32::sqrt),
@@ -781,6 +881,24 @@ mod tests {
         assert_eq!(
             call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]),
             Ok(std::f32::consts::E)
+        );
+    }
+
+    /// Words of 32 bits: packing, unpacking, comparison, and the way to numbers and back.
+    #[test]
+    fn words() {
+        let source = "fn f(x: f32, y: f32) -> f32 {
+            let code = (bitcast<u32>(x) & 0xfffff000u) | min(u32(y), 4095u);
+            let low = code & 0xfffu;
+            let sum = f32(low) + bitcast<f32>(code ^ low);
+            return select(-1.0, sum, (low << 2u) >> 2u == low && !(code < low));
+        }";
+        // 1.5 keeps its bits, of which the last twelve are 0.
+        assert_eq!(call(source, &[1.5, 7.9]), Ok(8.5));
+        assert_eq!(call(source, &[1.5, 5000.0]), Ok(4096.5));
+        assert_eq!(
+            call("fn f(x: f32) -> f32 { return exp2(floor(log2(x))); }", &[5.0]),
+            Ok(4.0)
         );
     }
 

@@ -1,12 +1,13 @@
 //! `nmt evaluate`
 
+mod frames;
 mod methods;
 mod shadows;
 mod tables;
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load, load_in_random_order};
+use super::scene::{SceneOptions, ViewOptions, load, load_in_random_order, moving_scene};
 use super::ui::{Ui, report};
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
@@ -41,7 +42,8 @@ pub struct Evaluate {
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
-    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass has found.
+    /// Evaluate those networks also on moments between each pixel's own nearest and farthest fragment, which a prepass
+    /// has found.
     #[arg(long, requires = "model")]
     prepass: bool,
     /// Random orders of fragments, and as many of whole objects where the scene is rendered here, for methods that depend on the order; errors are
@@ -52,7 +54,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "S")]
     tint: Option<f64>,
     /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
-    #[arg(long, conflicts_with_all = ["gpu", "tint"])]
+    #[arg(long, conflicts_with_all = ["gpu", "tint", "frames"])]
     shadows: bool,
     /// Folder for images, contact sheets, comparison.md, comparison.svg and results.json.
     #[arg(long)]
@@ -61,6 +63,13 @@ pub struct Evaluate {
     options: SceneOptions,
     #[command(flatten)]
     view: ViewOptions,
+    /// Turn the camera about the scene for so many frames, and compare how images change from frame to frame; for
+    /// scenes that are rendered, not for lists.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    frames: Option<u32>,
+    /// Angle of the camera between two frames [degrees].
+    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = frames::turn, allow_negative_numbers = true)]
+    degrees_per_frame: f64,
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]
     gpu: bool,
@@ -131,6 +140,11 @@ impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let session = self.session(ui)?;
         let scenes = self.scenes();
+        if self.frames.is_some() {
+            for scene in &scenes {
+                moving_scene(scene)?;
+            }
+        }
         if self.shadows {
             let named: Vec<(String, String)> = scenes.iter().cloned().zip(scene_names(&scenes)).collect();
             if session.shadows(&named)? {
@@ -224,6 +238,7 @@ impl Session<'_> {
                 demanded: requested.demanded,
             });
         }
+        self.add_changes(scene, &mut rows)?;
         rows.sort_by(|a, b| by_error(&a.cpu, &b.cpu));
         if let Some(sheet) = sheet.filter(|_| !rows.is_empty()) {
             sheet.write(&self.folder(&name).join("sheet.png"), self.replace)?;
@@ -338,10 +353,11 @@ impl Session<'_> {
     /// What a person reads about a scene.
     fn text(&self, found: &SceneResults) -> String {
         let heading = format!(
-            "{}: {} fragments, at most {} in a pixel\n",
+            "{}: {} fragments, at most {} in a pixel{}\n",
             found.name,
             found.list.len(),
-            found.list.depth_complexity()
+            found.list.depth_complexity(),
+            self.moving(&found.rows)
         );
         let on_gpu = self.gpu.map_or_else(String::new, |gpu| {
             tables::gpu_rows(gpu, self.options.gpu_storage.into(), &found.rows)

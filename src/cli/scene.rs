@@ -5,7 +5,7 @@ use super::{Verdict, keep_inputs};
 use crate::numeric::file::{Replace, may_write};
 use crate::oit::Context;
 use crate::pixel::{CameraPlanes, FragmentList};
-use crate::scene::{self, BUILT_IN, Options, SceneError, exr, npz};
+use crate::scene::{self, BUILT_IN, Options, SceneError, SceneFile, exr, npz};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
@@ -14,7 +14,8 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub struct Scene {
-    /// glass-stacks, smoke, hair, foliage, spheres, teapots; or a scene file (.toml), a fragment list (.npz) or a deep image (.exr).
+    /// glass-stacks, smoke, hair, foliage, spheres, sphere-cluster, teapots; or a scene file (.toml), a fragment list
+    /// (.npz) or a deep image (.exr).
     scene: String,
     /// Fragment list to write: .npz, or .exr for a deep image.
     #[arg(long, value_name = "F.npz")]
@@ -35,18 +36,6 @@ pub struct SceneOptions {
     /// Seed of a built-in scene.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-}
-
-impl SceneOptions {
-    /// Size of the image, where it is not the scene's own.
-    pub fn size(&self) -> Option<(u32, u32)> {
-        self.size
-    }
-
-    /// Seed, where it is not the scene's own.
-    pub fn seed(&self) -> Option<u64> {
-        self.seed
-    }
 }
 
 /// How fragments are looked at: the camera that saw them, the range of depth, and what lies behind.
@@ -98,30 +87,41 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+impl SceneOptions {
+    /// What they change about a scene that is rendered.
+    pub fn for_scene(&self) -> Options {
+        Options {
+            size: self.size,
+            seed: self.seed,
+        }
+    }
+}
+
+/// Whether a name is that of a file which holds fragments, and no scene.
+fn is_list(name: &str) -> bool {
+    let list = |e: &std::ffi::OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
+    Path::new(name).extension().is_some_and(list) && !BUILT_IN.contains(&name)
+}
+
+/// A scene whose camera can move.
+pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
+    if is_list(name) {
+        bail!(
+            "{name}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene"
+        );
+    }
+    Ok(scene::open(name)?)
+}
+
 /// The fragments of a scene by its name, or of a file.
 pub fn load(name: &str, options: &SceneOptions) -> anyhow::Result<FragmentList> {
-    let path = Path::new(name);
     if is_list(name) {
         if options.size.is_some() || options.seed.is_some() {
             bail!("{name}: --size and --seed are for scenes that are rendered, not for fragment lists");
         }
-        return Ok(scene::read(path)?);
+        return Ok(scene::read(Path::new(name))?);
     }
-    let scene = scene::open(name)?;
-    Ok(scene::build(
-        &scene,
-        &Options {
-            size: options.size,
-            seed: options.seed,
-        },
-    )?)
-}
-
-/// Whether a name is that of a file of fragments, and not of a scene that is rendered.
-fn is_list(name: &str) -> bool {
-    let path = Path::new(name);
-    let ends = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
-    (ends("npz") || ends("exr")) && !BUILT_IN.contains(&name)
+    Ok(scene::build(&scene::open(name)?, &options.for_scene())?)
 }
 
 /// The fragments of a scene, its objects drawn in a random order; none of a list, whose objects are not known.
@@ -129,10 +129,7 @@ pub fn load_in_random_order(name: &str, options: &SceneOptions, seed: u64) -> an
     if is_list(name) {
         return Ok(None);
     }
-    let options = Options {
-        size: options.size,
-        seed: options.seed,
-    };
+    let options = options.for_scene();
     Ok(Some(scene::build_in_random_order(&scene::open(name)?, &options, seed)?))
 }
 

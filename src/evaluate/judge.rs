@@ -2,7 +2,7 @@
 
 use super::bins::{self, AlphaBin, CountBin};
 use super::order::OrderResult;
-use super::{EvaluateError, FlipMap, Image, flip, image};
+use super::{EvaluateError, FlipMap, Image, OverTime, flip, image};
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{self, Capabilities, Context, Method};
 use crate::pixel::{FragmentList, abuffer};
@@ -52,6 +52,9 @@ pub struct MethodResult {
     /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without fragments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_alpha: Option<Vec<AlphaBin>>,
+    /// Change from frame to frame; none where the camera stands still.
+    #[serde(default, skip_serializing_if = "Option::is_none", flatten)]
+    pub over_time: Option<OverTime>,
 }
 
 /// The exact answer for a fragment list, in f64.
@@ -146,6 +149,7 @@ impl<'a> Truth<'a> {
             orders: None,
             by_fragments_per_pixel: Some(bins::by_count(self.list, pair, images)),
             by_alpha: pair.map(|(weights, exact)| bins::by_alpha(self.list, weights, exact)),
+            over_time: None,
         };
         Ok(Judged {
             result,
@@ -501,6 +505,7 @@ pub(super) mod tests {
                 fragments: 11,
                 transmittance_mse: Some(0.25),
             }]),
+            over_time: None,
         };
         let text = serde_json::to_string_pretty(&result).unwrap();
         insta::assert_snapshot!(text);

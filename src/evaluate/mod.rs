@@ -6,6 +6,7 @@ pub mod gpu;
 pub mod image;
 pub mod judge;
 pub mod order;
+pub mod over_time;
 pub mod picture;
 pub mod shadow;
 mod text;
@@ -16,6 +17,7 @@ pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};
 pub use order::{OrderResult, OrderedList, Shuffled};
+pub use over_time::OverTime;
 pub use tinted::{Tinted, TintedResult};
 
 use crate::numeric::file::FileError;

@@ -10,11 +10,14 @@ pub mod lanes;
 pub mod npy;
 pub mod orthogonal;
 pub mod quantise;
-
+pub mod real;
 pub mod rng;
 pub mod roots;
 pub mod scalar;
+pub mod source;
+
 pub mod tolerance;
 pub mod unit_circle;
 
+pub use real::Real;
 pub use scalar::Scalar;

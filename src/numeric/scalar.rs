@@ -1,29 +1,14 @@
-//! One algorithm, two precisions: the arithmetic that reference code needs, for `f32` and `f64`.
+//! One algorithm, several precisions: the numbers that reference code branches on.
 
+use super::real::{Real, c};
 use std::iter::Sum;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A binary floating-point number, `f32` or `f64`.
+/// A binary floating-point number, `f32`, `f64` or a device's, which code may compare and branch on.
 ///
 /// Transcendental functions come from the `libm` crate and not from the platform, so that the same input gives the same bits
-/// on every machine. Multiplication and addition stay separate: nothing here contracts to a fused multiply-add.
-pub trait Scalar:
-    Copy
-    + PartialOrd
-    + Send
-    + Sync
-    + std::fmt::Debug
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-    + MulAssign
-    + Sum
-    + 'static
-{
+/// on every machine. Multiplication and addition stay separate: nothing here contracts to a fused multiply-add. Of two numbers
+/// of which one is NaN, the lesser and the greater are the other.
+pub trait Scalar: Real<Mask = bool> + PartialOrd + Send + Sync + std::fmt::Debug + Sum + 'static {
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -36,31 +21,18 @@ pub trait Scalar:
     fn from_f32(x: f32) -> Self;
     /// Widens to `f64`; exact for both.
     fn to_f64(self) -> f64;
-    /// e^self.
-    fn exp(self) -> Self;
-    /// Natural logarithm.
-    fn ln(self) -> Self;
-    /// Square root, correctly rounded; NaN of a negative number.
-    fn sqrt(self) -> Self;
-    /// The lesser of two numbers; `other` where `self` is NaN.
-    fn min(self, other: Self) -> Self;
-    /// The greater of two numbers; `other` where `self` is NaN.
-    fn max(self, other: Self) -> Self;
-    /// |self|.
-    fn abs(self) -> Self;
     /// Neither NaN nor infinite.
     fn is_finite(self) -> bool;
 
     /// 1/(1 + e^−x), finite for every finite x.
     fn sigmoid(self) -> Self {
         // e^80 is finite in f32, and 1/(1 + e^80) is below every tolerance used here.
-        let eighty = Self::from_f64(80.0);
-        Self::ONE / (Self::ONE + (-self).min(eighty).exp())
+        Self::ONE / (Self::ONE + Real::min(-self, c(80.0)).exp())
     }
 }
 
-macro_rules! real {
-    ($t:ty, $exp:path, $ln:path) => {
+macro_rules! scalar {
+    ($t:ty) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -78,31 +50,6 @@ macro_rules! real {
                 self as f64
             }
             #[inline]
-            fn exp(self) -> Self {
-                $exp(self)
-            }
-            #[inline]
-            fn ln(self) -> Self {
-                $ln(self)
-            }
-            #[inline]
-            fn sqrt(self) -> Self {
-                // IEEE 754 rounds square roots correctly: the platform's is the same everywhere.
-                <$t>::sqrt(self)
-            }
-            #[inline]
-            fn min(self, other: Self) -> Self {
-                <$t>::min(self, other)
-            }
-            #[inline]
-            fn max(self, other: Self) -> Self {
-                <$t>::max(self, other)
-            }
-            #[inline]
-            fn abs(self) -> Self {
-                <$t>::abs(self)
-            }
-            #[inline]
             fn is_finite(self) -> bool {
                 <$t>::is_finite(self)
             }
@@ -110,8 +57,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, libm::expf, libm::logf);
-real!(f64, libm::exp, libm::log);
+scalar!(f32);
+scalar!(f64);
 
 #[cfg(test)]
 mod tests {

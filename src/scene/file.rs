@@ -181,6 +181,31 @@ impl SceneFile {
         Ok(())
     }
 
+    /// The camera: the file's, or a built-in scene's own.
+    ///
+    /// # Errors
+    /// [`SceneError::Field`] where there are meshes and no camera.
+    pub fn camera(&self) -> Result<Camera, SceneError> {
+        match (&self.camera, &self.built_in) {
+            (Some(camera), _) => Ok(*camera),
+            (None, Some(name)) => Ok(procedural::camera(name)),
+            (None, None) => Err(SceneError::field(
+                &self.path,
+                "camera",
+                "it is missing".to_owned(),
+                "a [camera] for the meshes",
+            )),
+        }
+    }
+
+    /// The same scene seen by another camera.
+    pub fn seen_by(&self, camera: Camera) -> Self {
+        Self {
+            camera: Some(camera),
+            ..self.clone()
+        }
+    }
+
     /// The fragments that the camera sees.
     ///
     /// # Errors
@@ -217,18 +242,7 @@ impl SceneFile {
     /// The geometry and the camera's view of it.
     pub(super) fn seen(&self, options: &Options) -> Result<(Geometry, View), SceneError> {
         self.validate()?;
-        let mut camera = match (&self.camera, &self.built_in) {
-            (Some(camera), _) => *camera,
-            (None, Some(name)) => procedural::camera(name),
-            (None, None) => {
-                return Err(SceneError::field(
-                    &self.path,
-                    "camera",
-                    "it is missing".to_owned(),
-                    "a [camera] for the meshes",
-                ));
-            }
-        };
+        let mut camera = self.camera()?;
         if let Some((width, height)) = options.size {
             (camera.width, camera.height) = (width, height);
         }

@@ -5,12 +5,14 @@ pub mod exr;
 pub mod file;
 mod mesh;
 pub mod npz;
+pub mod path;
 mod procedural;
 mod raster;
 pub mod shadow;
 
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile};
+pub use path::CameraPath;
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
@@ -18,12 +20,13 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 7] = [
+pub const BUILT_IN: [&str; 8] = [
     "glass-stacks",
     "smoke",
     "hair",
     "foliage",
     "spheres",
+    "sphere-cluster",
     "teapots",
     "curtains",
 ];
@@ -205,6 +208,7 @@ mod tests {
             ("hair", 151),
             ("foliage", 10),
             ("spheres", 6),
+            ("sphere-cluster", 16),
             ("teapots", 6),
             ("curtains", 20),
         ] {

@@ -16,6 +16,7 @@ pub(super) fn camera(name: &str) -> Camera {
         "smoke" => ([0.0, 2.2, 8.5], [0.0, 2.15, 0.0], 36.0),
         "hair" => ([0.9, 0.5, 6.2], [0.0, -0.25, 0.0], 40.0),
         "foliage" => ([0.4, 1.9, 8.2], [0.0, 2.0, 0.0], 34.0),
+        "sphere-cluster" => ([0.0, 1.1, 6.6], [0.0, 0.0, 0.0], 34.0),
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
         "curtains" => ([0.0, 0.0, 0.0], [0.0, 0.0, -1.0], 40.0),
         _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
@@ -62,6 +63,7 @@ pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
         "foliage" => foliage(&mut out, seed),
         "spheres" => spheres(&mut out),
         "curtains" => curtains(&mut out, seed),
+        "sphere-cluster" => sphere_cluster(&mut out, seed),
         _ => teapots(&mut out),
     }
     out.geometry
@@ -75,6 +77,7 @@ enum Purpose {
     Hair,
     Leaves,
     Curtains,
+    Spheres,
 }
 
 fn random(seed: u64, purpose: Purpose, index: u64) -> Stream {
@@ -541,6 +544,24 @@ fn curtains(out: &mut Builder, seed: u64) {
                 out.geometry.end_object();
             }
         }
+    }
+}
+
+/// Forty spheres of all sizes and opacities within a ball, most of them cut by several others: as the camera moves,
+/// fragments change places everywhere.
+fn sphere_cluster(out: &mut Builder, seed: u64) {
+    for i in 0..40 {
+        let mut rng = random(seed, Purpose::Spheres, i);
+        let center = scale(direction(&mut rng), 1.35 * libm::cbrt(between(&mut rng, 0.0, 1.0)));
+        let radius = between(&mut rng, 0.25, 0.6);
+        let color = [0, 1, 2].map(|_| between(&mut rng, 0.1, 0.98) as f32);
+        let paint = Paint {
+            color,
+            alpha: between(&mut rng, 0.1, 0.6) as f32,
+            rim: 0.3,
+        };
+        out.sphere(center, radius, paint);
+        out.geometry.end_object();
     }
 }
 

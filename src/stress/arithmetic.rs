@@ -1,6 +1,7 @@
 //! The arithmetic of devices: single precision with what shading languages allow beside IEEE 754.
 
 use crate::numeric::Scalar;
+use crate::numeric::real::{Operand, Real, Word, constant_on_the_right};
 use std::cmp::Ordering;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -12,7 +13,8 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 /// - `FLUSHED`: subnormal numbers are 0.
 ///
 /// # Source
-/// WGSL, Sec. "Floating Point Accuracy": 2.5 ULP for x / y, 3 + 2 |x| ULP for e^x, 3 ULP for ln x but 2^−21 in [0.5, 2]; √x inherits 1 / inverseSqrt(x), 2 + 2.5 ULP.
+/// WGSL, Sec. "Floating Point Accuracy": 2.5 ULP for x / y, 3 + 2 |x| ULP for e^x and 2^x, 3 ULP for logarithms but 2^−21 in
+/// [0.5, 2]; √x inherits 1 / inverseSqrt(x), 2 + 2.5 ULP.
 #[derive(Debug, Clone, Copy)]
 pub struct Device<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool>(
     /// A single-precision number, or under `FUSED` the exact product of two.
@@ -69,6 +71,17 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Device<FUSED, RO
             return Self::rounded(exact);
         }
         Self::rounded(exact + whim(operands.0, operands.1) * (ulps * ulp(exact)).max(least))
+    }
+
+    fn logarithm(self, exact: impl Fn(f64) -> f64, whim_of: f32) -> Self {
+        let x = self.settled();
+        let near_one = (0.5..=2.0).contains(&x);
+        Self::off(
+            exact(x.into()),
+            (x, whim_of),
+            if near_one { 0.0 } else { 3.0 },
+            if near_one { libm::exp2(-21.0) } else { 0.0 },
+        )
     }
 }
 
@@ -152,6 +165,8 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Sum for Device<F
     }
 }
 
+constant_on_the_right!([const FUSED: bool, const ROUGH: bool, const FLUSHED: bool] Device<FUSED, ROUGH, FLUSHED>);
+
 impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Scalar for Device<FUSED, ROUGH, FLUSHED> {
     const ZERO: Self = Self(0.0);
     const ONE: Self = Self(1.0);
@@ -169,21 +184,34 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Scalar for Devic
         self.settled().into()
     }
 
-    fn exp(self) -> Self {
-        let x = self.settled();
-        // However coarse, no exponential is negative.
-        Self::off(libm::exp(x.into()), (x, 0.0), 3.0 + 2.0 * f64::from(x.abs()), 0.0).max(Self::ZERO)
+    fn is_finite(self) -> bool {
+        self.settled().is_finite()
+    }
+}
+
+impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Real for Device<FUSED, ROUGH, FLUSHED> {
+    type Mask = bool;
+    type Word = u32;
+    const ROUNDING: f64 = f32::EPSILON as f64;
+
+    fn like(self, value: f64) -> Self {
+        Self::rounded(value)
     }
 
-    fn ln(self) -> Self {
-        let x = self.settled();
-        let near_one = (0.5..=2.0).contains(&x);
-        Self::off(
-            libm::log(x.into()),
-            (x, 1.0),
-            if near_one { 0.0 } else { 3.0 },
-            if near_one { libm::exp2(-21.0) } else { 0.0 },
-        )
+    fn min(self, other: impl Operand<Self>) -> Self {
+        Self::single(self.settled().min(other.of(self).settled()))
+    }
+
+    fn max(self, other: impl Operand<Self>) -> Self {
+        Self::single(self.settled().max(other.of(self).settled()))
+    }
+
+    fn clamp(self, low: impl Operand<Self>, high: impl Operand<Self>) -> Self {
+        Real::min(Real::max(self, low), high)
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
     }
 
     fn sqrt(self) -> Self {
@@ -191,20 +219,93 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Scalar for Devic
         Self::off(f64::from(x).sqrt(), (x, 2.0), 4.5, 0.0)
     }
 
+    fn exp(self) -> Self {
+        let x = self.settled();
+        // However coarse, no exponential is negative.
+        Self::off(libm::exp(x.into()), (x, 0.0), 3.0 + 2.0 * f64::from(x.abs()), 0.0).max(Self::ZERO)
+    }
+
+    fn ln(self) -> Self {
+        self.logarithm(libm::log, 1.0)
+    }
+
+    fn exp2(self) -> Self {
+        let x = self.settled();
+        Self::off(libm::exp2(x.into()), (x, 3.0), 3.0 + 2.0 * f64::from(x.abs()), 0.0).max(Self::ZERO)
+    }
+
+    fn log2(self) -> Self {
+        self.logarithm(libm::log2, 4.0)
+    }
+
+    fn floor(self) -> Self {
+        Self::single(self.settled().floor())
+    }
+
+    fn lt(self, other: impl Operand<Self>) -> bool {
+        self < other.of(self)
+    }
+
+    fn le(self, other: impl Operand<Self>) -> bool {
+        self <= other.of(self)
+    }
+
+    fn gt(self, other: impl Operand<Self>) -> bool {
+        self > other.of(self)
+    }
+
+    fn ge(self, other: impl Operand<Self>) -> bool {
+        self >= other.of(self)
+    }
+
+    fn eq(self, other: impl Operand<Self>) -> bool {
+        self == other.of(self)
+    }
+
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    fn to_bits(self) -> u32 {
+        self.settled().to_bits()
+    }
+
+    fn to_word(self) -> u32 {
+        self.settled() as u32
+    }
+}
+
+impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Word<Device<FUSED, ROUGH, FLUSHED>> for u32 {
+    fn like(self, value: u32) -> Self {
+        value
+    }
+
     fn min(self, other: Self) -> Self {
-        Self::single(self.settled().min(other.settled()))
+        Ord::min(self, other)
     }
 
     fn max(self, other: Self) -> Self {
-        Self::single(self.settled().max(other.settled()))
+        Ord::max(self, other)
     }
 
-    fn abs(self) -> Self {
-        Self(self.0.abs())
+    fn lt(self, other: Self) -> bool {
+        self < other
     }
 
-    fn is_finite(self) -> bool {
-        self.settled().is_finite()
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    fn to_real(self) -> Device<FUSED, ROUGH, FLUSHED> {
+        Device::single(self as f32)
+    }
+
+    fn bits_to_real(self) -> Device<FUSED, ROUGH, FLUSHED> {
+        Device::single(f32::from_bits(self))
     }
 }
 

@@ -1,7 +1,7 @@
 // The methods: what they are called, what they keep of a pixel, and their WGSL.
 //
-// A blended method draws the scene twice. Pass 1 adds up `targets`; `accumulate` makes what a fragment adds. Pass 2 adds up colour by
-// `weight`; `total` is a pixel's absorbance b0. `functions` are files that the three of them use.
+// A blended method draws the scene twice. Pass 1 adds up `targets`; `accumulate` makes what a fragment adds. Pass 2
+// adds up colour by `weight`; `total` is a pixel's absorbance b0. `functions` are files that the three of them use.
 
 const SUMS_OF_MOMENTS = `
 struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4: f32 }
@@ -138,7 +138,12 @@ fn total(at: vec2<i32>) -> f32 {
     targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
     half: { targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")], bits: 256 },
     accumulate: `${COMMON}
-struct Sums { @location(0) c0: vec4<f32>, @location(1) c1: vec4<f32>, @location(2) c2: vec4<f32>, @location(3) c3: vec4<f32> }
+struct Sums {
+    @location(0) c0: vec4<f32>,
+    @location(1) c1: vec4<f32>,
+    @location(2) c2: vec4<f32>,
+    @location(3) c3: vec4<f32>,
+}
 fn accumulate(s: Surface) -> Sums {
     let c = wavelet_terms(depth_of(s.v), absorbance_of(s.alpha));
     return Sums(c[0], c[1], c[2], c[3]);
@@ -158,7 +163,8 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     total: `
 fn total(at: vec2<i32>) -> f32 {
     return max(wavelet_value(array<vec4<f32>, 4>(
-        textureLoad(target0, at, 0), textureLoad(target1, at, 0), textureLoad(target2, at, 0), textureLoad(target3, at, 0),
+        textureLoad(target0, at, 0), textureLoad(target1, at, 0),
+        textureLoad(target2, at, 0), textureLoad(target3, at, 0),
     ), 15u), 0.0);
 }
 `,

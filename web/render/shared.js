@@ -1,4 +1,5 @@
-// What both renderers share: the camera's numbers, the frame's uniform data, objects from far to near, the floor's shadow.
+// What both renderers share: the camera's numbers, the frame's uniform data, objects from far to near, the floor's
+// shadow.
 
 import { FRAGMENT_BYTES, SPLAT_BYTES, VERTEX_BYTES } from "../scene/geometry.js";
 import { dot, lookAt, multiply, perspective, sub, unit } from "../scene/vector.js";
@@ -10,19 +11,36 @@ export const FAR = 200;
 export const KINDS = {
   triangles: {
     stride: VERTEX_BYTES,
-    attributes: [[0, "float32x3"], [12, "snorm8x4"], [16, "unorm8x4"]],
+    attributes: [
+      [0, "float32x3"],
+      [12, "snorm8x4"],
+      [16, "unorm8x4"],
+    ],
   },
   strands: {
     stride: VERTEX_BYTES,
-    attributes: [[0, "float32x3"], [12, "snorm8x4"], [16, "unorm8x4"]],
+    attributes: [
+      [0, "float32x3"],
+      [12, "snorm8x4"],
+      [16, "unorm8x4"],
+    ],
   },
   splats: {
     stride: SPLAT_BYTES,
-    attributes: [[0, "float32x3"], [12, "float32x3"], [24, "float32x3"], [36, "unorm8x4"]],
+    attributes: [
+      [0, "float32x3"],
+      [12, "float32x3"],
+      [24, "float32x3"],
+      [36, "unorm8x4"],
+    ],
   },
   fragments: {
     stride: FRAGMENT_BYTES,
-    attributes: [[0, "uint32"], [4, "float32"], [8, "float32x4"]],
+    attributes: [
+      [0, "uint32"],
+      [4, "float32"],
+      [8, "float32x4"],
+    ],
   },
 };
 
@@ -101,8 +119,8 @@ export function sortedSplats(geometry, view) {
 export const SHADOW = 192;
 
 /**
- * Light that reaches the floor through what stands on it, as SHADOW x SHADOW rgba8 (square roots are not taken: linear).
- * Triangles and splats are projected along the lamp, their absorbance is spread over cells and blurred.
+ * Light that reaches the floor through what stands on it, as SHADOW x SHADOW rgba8 (square roots are not taken:
+ * linear). Triangles and splats are projected along the lamp, their absorbance is spread over cells and blurred.
  */
 export function shadowOf(scene) {
   const size = SHADOW;
@@ -115,11 +133,19 @@ export function shadowOf(scene) {
     const y = (p[2] - t * lamp[2] + scene.floor) / cell - 0.5;
     const [i, j] = [Math.floor(x), Math.floor(y)];
     if (i < 0 || j < 0 || i >= size - 1 || j >= size - 1) return;
-    for (const [k, w] of [[0, (1 - x + i) * (1 - y + j)], [1, (x - i) * (1 - y + j)], [size, (1 - x + i) * (y - j)], [size + 1, (x - i) * (y - j)]]) {
+    for (const [k, w] of [
+      [0, (1 - x + i) * (1 - y + j)],
+      [1, (x - i) * (1 - y + j)],
+      [size, (1 - x + i) * (y - j)],
+      [size + 1, (x - i) * (y - j)],
+    ]) {
       for (let c = 0; c < 3; c++) sums[c][j * size + i + k] += w * optical * (1.08 - color[c]);
     }
   };
-  for (const [geometry, opaque] of [[scene.transparent, false], [scene.opaque, true]]) {
+  for (const [geometry, opaque] of [
+    [scene.transparent, false],
+    [scene.opaque, true],
+  ]) {
     if (!geometry || geometry.kind === "fragments") continue;
     const floats = new Float32Array(geometry.vertices);
     const bytes = new Uint8Array(geometry.vertices);
@@ -151,7 +177,11 @@ export function shadowOf(scene) {
           const upper = x + y >= pieces;
           const [f, h] = [(x + (upper ? 0.67 : 0.33)) / pieces, (y + (upper ? 0.67 : 0.33)) / pieces];
           const [e, w] = f + h > 1 ? [1 - f, 1 - h] : [f, h];
-          put([0, 1, 2].map((c) => p[c] + e * u[c] + w * v[c]), [r, g, b], share);
+          put(
+            [0, 1, 2].map((c) => p[c] + e * u[c] + w * v[c]),
+            [r, g, b],
+            share,
+          );
         }
       }
     }
@@ -185,3 +215,6 @@ function blurred(plane, size, reach) {
   return pass(pass(plane, 1, size), size, 1);
 }
 
+/** What the exact image depends on, besides scene and size; an image is drawn again when it changes. */
+export const exactKey = (renderer, { camera, opacity, backdrop, oneColor, transparentOnly }) =>
+  JSON.stringify([camera, opacity, backdrop, !!oneColor, !!transparentOnly, renderer.bands]);

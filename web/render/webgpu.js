@@ -1,6 +1,18 @@
 // The scene by WebGPU: exact lists, sorted objects, and the blended methods in two passes and a resolve.
 
-import { FRAME_FLOATS, FAR, KINDS, NEAR, SHADOW, farToNear, frameData, shadowOf, sortedSplats, viewOf } from "./shared.js";
+import {
+  FAR,
+  FRAME_FLOATS,
+  KINDS,
+  NEAR,
+  SHADOW,
+  exactKey,
+  farToNear,
+  frameData,
+  shadowOf,
+  sortedSplats,
+  viewOf,
+} from "./shared.js";
 import { method } from "./methods.js";
 import { text, texts } from "./text.js";
 
@@ -32,7 +44,9 @@ export class WebGpuRenderer {
     const limits = adapter.limits;
     const inFragments = limits.maxStorageBuffersInFragmentStage ?? limits.maxStorageBuffersPerShaderStage;
     if (inFragments < 4 || without.has("fragment-atomics")) {
-      throw new Error("This adapter has no storage buffers in fragment shaders, which exact lists and stored fragments need.");
+      throw new Error(
+        "This adapter has no storage buffers in fragment shaders, which exact lists and stored fragments need.",
+      );
     }
     const bytes = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize, 1 << 29);
     const device = await adapter.requestDevice({
@@ -50,9 +64,12 @@ export class WebGpuRenderer {
     this.blends32 = device.features.has("float32-blendable");
     this.timed = device.features.has("timestamp-query");
     const info = adapter.info ?? {};
-    this.adapter = info.description || [info.vendor, info.architecture, info.device].filter(Boolean).join(" ") || "unnamed adapter";
-    this.software = /swiftshader|llvmpipe|lavapipe|software|basic render/i.test(`${this.adapter} ${info.vendor} ${info.architecture}`)
-      || adapter.info?.isFallbackAdapter === true;
+    this.adapter =
+      info.description || [info.vendor, info.architecture, info.device].filter(Boolean).join(" ") || "unnamed adapter";
+    this.software =
+      /swiftshader|llvmpipe|lavapipe|software|basic render/i.test(
+        `${this.adapter} ${info.vendor} ${info.architecture}`,
+      ) || adapter.info?.isFallbackAdapter === true;
     this.format = navigator.gpu.getPreferredCanvasFormat();
     this.context = canvas.getContext("webgpu");
     this.context.configure({ device, format: this.format, alphaMode: "opaque" });
@@ -75,8 +92,10 @@ export class WebGpuRenderer {
   get notes() {
     const notes = [];
     if (!this.blends32) {
-      notes.push("This adapter cannot blend 32-bit float targets (float32-blendable): networks keep their sums in 16 bits and "
-        + "both ends in depth buffers, and MBOIT is left out.");
+      notes.push(
+        "This adapter cannot blend 32-bit float targets (float32-blendable): networks keep their sums in 16 bits and " +
+          "both ends in depth buffers, and MBOIT is left out.",
+      );
     }
     if (!this.timed) notes.push("This adapter gives no GPU times (timestamp-query).");
     if (this.software) notes.push(`${this.adapter} draws on the CPU: its times are not those of a graphics card.`);
@@ -105,7 +124,11 @@ export class WebGpuRenderer {
     const stages = GPUShaderStage.VERTEX | GPUShaderStage.FRAGMENT;
     const FRAGMENT = GPUShaderStage.FRAGMENT;
     const layout = (label, entries) => device.createBindGroupLayout({ label, entries });
-    const texture = (binding, sampleType = "unfilterable-float") => ({ binding, visibility: FRAGMENT, texture: { sampleType } });
+    const texture = (binding, sampleType = "unfilterable-float") => ({
+      binding,
+      visibility: FRAGMENT,
+      texture: { sampleType },
+    });
     const storage = (binding, type) => ({ binding, visibility: FRAGMENT, buffer: { type } });
     this.frameLayout = layout("frame", [{ binding: 0, visibility: stages, buffer: { type: "uniform" } }]);
     this.frameGroup = device.createBindGroup({
@@ -115,11 +138,21 @@ export class WebGpuRenderer {
     this.layouts = {
       backdrop: layout("backdrop", [texture(0, "float"), { binding: 1, visibility: FRAGMENT, sampler: {} }]),
       list: layout("list", [storage(0, "storage"), storage(1, "storage"), storage(2, "storage"), texture(3, "depth")]),
-      sort: layout("sort", [storage(0, "read-only-storage"), storage(1, "read-only-storage"), storage(2, "read-only-storage"), texture(3)]),
+      sort: layout("sort", [
+        storage(0, "read-only-storage"),
+        storage(1, "read-only-storage"),
+        storage(2, "read-only-storage"),
+        texture(3),
+      ]),
       end: layout("end", [texture(9, "depth")]),
       slots: layout("slots", [storage(8, "storage"), texture(9, "depth")]),
       result: layout("result", [texture(0), texture(1)]),
-      present: layout("present", [{ binding: 0, visibility: FRAGMENT, buffer: { type: "uniform" } }, texture(1), texture(2), storage(3, "read-only-storage")]),
+      present: layout("present", [
+        { binding: 0, visibility: FRAGMENT, buffer: { type: "uniform" } },
+        texture(1),
+        texture(2),
+        storage(3, "read-only-storage"),
+      ]),
       copy: layout("copy", [texture(1)]),
     };
     this.sampler = device.createSampler({ minFilter: "linear", magFilter: "linear" });
@@ -131,7 +164,11 @@ export class WebGpuRenderer {
     const key = `state ${plan.targets.length} ${plan.ends} ${plan.slots}`;
     if (!this.layouts[key]) {
       const FRAGMENT = GPUShaderStage.FRAGMENT;
-      const entries = plan.targets.map((_, binding) => ({ binding, visibility: FRAGMENT, texture: { sampleType: "unfilterable-float" } }));
+      const entries = plan.targets.map((_, binding) => ({
+        binding,
+        visibility: FRAGMENT,
+        texture: { sampleType: "unfilterable-float" },
+      }));
       if (plan.ends === "depth") {
         for (const binding of [6, 7]) entries.push({ binding, visibility: FRAGMENT, texture: { sampleType: "depth" } });
       }
@@ -154,11 +191,14 @@ export class WebGpuRenderer {
     let out = plan.targets.map((_, i) => `@group(1) @binding(${i}) var target${i}: texture_2d<f32>;\n`).join("");
     if (plan.ends === "blended") {
       const last = plan.targets.length - 1;
-      out += `fn ends_of(at: vec2<i32>) -> vec2<f32> {\n    return textureLoad(target${last}, at, 0).xy * vec2<f32>(-1.0, 1.0);\n}\n`;
+      out += "fn ends_of(at: vec2<i32>) -> vec2<f32> {\n";
+      out += `    return textureLoad(target${last}, at, 0).xy * vec2<f32>(-1.0, 1.0);\n}\n`;
     } else if (plan.ends === "depth") {
-      out += "@group(1) @binding(6) var nearest: texture_depth_2d;\n@group(1) @binding(7) var farthest: texture_depth_2d;\n"
-        + "fn ends_of(at: vec2<i32>) -> vec2<f32> {\n"
-        + "    return vec2<f32>(textureLoad(nearest, at, 0), textureLoad(farthest, at, 0)) / frame.depth_scale;\n}\n";
+      out +=
+        "@group(1) @binding(6) var nearest: texture_depth_2d;\n" +
+        "@group(1) @binding(7) var farthest: texture_depth_2d;\n" +
+        "fn ends_of(at: vec2<i32>) -> vec2<f32> {\n" +
+        "    return vec2<f32>(textureLoad(nearest, at, 0), textureLoad(farthest, at, 0)) / frame.depth_scale;\n}\n";
     }
     if (plan.slots) out += "@group(1) @binding(8) var<storage, read> slots: array<u32>;\n";
     return out;
@@ -185,11 +225,13 @@ export class WebGpuRenderer {
     return {
       module,
       entryPoint: "place",
-      buffers: [{
-        arrayStride: stride,
-        stepMode: kind === "splats" ? "instance" : "vertex",
-        attributes: attributes.map(([offset, format], shaderLocation) => ({ offset, format, shaderLocation })),
-      }],
+      buffers: [
+        {
+          arrayStride: stride,
+          stepMode: kind === "splats" ? "instance" : "vertex",
+          attributes: attributes.map(([offset, format], shaderLocation) => ({ offset, format, shaderLocation })),
+        },
+      ],
     };
   }
 
@@ -220,7 +262,9 @@ export class WebGpuRenderer {
       const depth = { format: "depth32float", depthWriteEnabled: false, depthCompare: "less-equal" };
       if (m.kind === "lists") return this.prepareLists(geometry, kind, primitive);
       if (m.kind === "objects") {
-        const module = await this.module(name, `${geometry}
+        const module = await this.module(
+          name,
+          `${geometry}
 @fragment
 fn over(f: Varying) -> @location(0) vec4<f32> {
     let found = surface(f);
@@ -228,11 +272,17 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
         discard;
     }
     return vec4<f32>(found.alpha * found.color, found.alpha);
-}`);
+}`,
+        );
         const targets = [{ format: this.color, blend: { color: OVER, alpha: OVER } }];
         return {
-          draw: await this.render2(name, [this.frameLayout], this.vertexState(module, kind),
-            { module, entryPoint: "over", targets }, { primitive, depthStencil: depth }),
+          draw: await this.render2(
+            name,
+            [this.frameLayout],
+            this.vertexState(module, kind),
+            { module, entryPoint: "over", targets },
+            { primitive, depthStencil: depth },
+          ),
         };
       }
       return this.prepareBlended(m, geometry, kind, primitive, depth);
@@ -241,13 +291,24 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
 
   async prepareLists(geometry, kind, primitive) {
     const listing = await this.module("list", `${geometry}\n${await text("web/wgsl/list.wgsl")}`);
-    const sorting = await this.module("sort", `${await text("web/wgsl/frame.wgsl")}\n${await text("web/wgsl/sort.wgsl")}`);
+    const sorting = await this.module(
+      "sort",
+      `${await text("web/wgsl/frame.wgsl")}\n${await text("web/wgsl/sort.wgsl")}`,
+    );
     return {
-      list: await this.render2("list", [this.frameLayout, this.layouts.list], this.vertexState(listing, kind),
+      list: await this.render2(
+        "list",
+        [this.frameLayout, this.layouts.list],
+        this.vertexState(listing, kind),
         { module: listing, entryPoint: "list", targets: [] },
-        { primitive, depthStencil: { format: "depth32float", depthWriteEnabled: false, depthCompare: "always" } }),
-      sort: await this.render2("sort", [this.frameLayout, this.layouts.sort], { module: sorting, entryPoint: "everywhere" },
-        { module: sorting, entryPoint: "composite", targets: [{ format: "rgba32float" }] }),
+        { primitive, depthStencil: { format: "depth32float", depthWriteEnabled: false, depthCompare: "always" } },
+      ),
+      sort: await this.render2(
+        "sort",
+        [this.frameLayout, this.layouts.sort],
+        { module: sorting, entryPoint: "everywhere" },
+        { module: sorting, entryPoint: "composite", targets: [{ format: "rgba32float" }] },
+      ),
     };
   }
 
@@ -256,33 +317,61 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
     const functions = await this.functions(m);
     const state = this.stateText(m);
     const layout = this.stateLayout(m);
-    const recorder = plan.slots ? "@group(1) @binding(8) var<storage, read_write> slots: array<atomic<u32>>;\n"
-      + "@group(1) @binding(9) var opaque_depth: texture_depth_2d;\n" : "";
-    const first = await this.module(`${m.name} pass 1`,
-      `${geometry}\n${recorder}${functions}\n${m.accumulate}\n${m.pass1 ?? (await text("web/wgsl/pass1.wgsl"))}`);
-    const second = await this.module(`${m.name} pass 2`,
-      `${geometry}\n${state}${functions}\n${m.shared ?? ""}${m.accumulate}\n${m.weight}\n${await text("web/wgsl/pass2.wgsl")}`);
-    const third = await this.module(`${m.name} resolve`,
-      `${await text("web/wgsl/frame.wgsl")}\n${state}${functions}\n${m.total}\n${await text("web/wgsl/resolve.wgsl")}`);
+    const recorder = plan.slots
+      ? "@group(1) @binding(8) var<storage, read_write> slots: array<atomic<u32>>;\n" +
+        "@group(1) @binding(9) var opaque_depth: texture_depth_2d;\n"
+      : "";
+    const first = await this.module(
+      `${m.name} pass 1`,
+      `${geometry}\n${recorder}${functions}\n${m.accumulate}\n${m.pass1 ?? (await text("web/wgsl/pass1.wgsl"))}`,
+    );
+    const second = await this.module(
+      `${m.name} pass 2`,
+      `${geometry}\n${state}${functions}\n${m.accumulate}\n${m.weight}\n${await text("web/wgsl/pass2.wgsl")}`,
+    );
+    const third = await this.module(
+      `${m.name} resolve`,
+      `${await text("web/wgsl/frame.wgsl")}\n${state}${functions}\n${m.total}\n${await text("web/wgsl/resolve.wgsl")}`,
+    );
     const targets = plan.targets.map((t) => {
       const both = { srcFactor: "one", dstFactor: "one", operation: t.operation };
       return { format: t.format, blend: { color: both, alpha: both } };
     });
     const out = {
-      pass1: await this.render2(`${m.name} pass 1`, [this.frameLayout, ...(plan.slots ? [this.layouts.slots] : [])],
-        this.vertexState(first, kind), { module: first, entryPoint: "pass1", targets }, { primitive, depthStencil }),
-      pass2: await this.render2(`${m.name} pass 2`, [this.frameLayout, layout], this.vertexState(second, kind),
+      pass1: await this.render2(
+        `${m.name} pass 1`,
+        [this.frameLayout, ...(plan.slots ? [this.layouts.slots] : [])],
+        this.vertexState(first, kind),
+        { module: first, entryPoint: "pass1", targets },
+        { primitive, depthStencil },
+      ),
+      pass2: await this.render2(
+        `${m.name} pass 2`,
+        [this.frameLayout, layout],
+        this.vertexState(second, kind),
         { module: second, entryPoint: "pass2", targets: [{ format: this.color, blend: { color: ADD, alpha: ADD } }] },
-        { primitive, depthStencil }),
-      resolve: await this.render2(`${m.name} resolve`, [this.frameLayout, layout, this.layouts.result],
+        { primitive, depthStencil },
+      ),
+      resolve: await this.render2(
+        `${m.name} resolve`,
+        [this.frameLayout, layout, this.layouts.result],
         { module: third, entryPoint: "everywhere" },
-        { module: third, entryPoint: "resolve", targets: [{ format: "rgba32float" }] }),
+        { module: third, entryPoint: "resolve", targets: [{ format: "rgba32float" }] },
+      ),
     };
     if (plan.ends === "depth") {
       const module = await this.module("end", `${geometry}\n${await text("web/wgsl/end.wgsl")}`);
-      out.ends = await Promise.all(["less", "greater"].map((depthCompare) => this.render2(`end ${depthCompare}`,
-        [this.frameLayout, this.layouts.end], this.vertexState(module, kind), { module, entryPoint: "end", targets: [] },
-        { primitive, depthStencil: { format: "depth32float", depthWriteEnabled: true, depthCompare } })));
+      out.ends = await Promise.all(
+        ["less", "greater"].map((depthCompare) =>
+          this.render2(
+            `end ${depthCompare}`,
+            [this.frameLayout, this.layouts.end],
+            this.vertexState(module, kind),
+            { module, entryPoint: "end", targets: [] },
+            { primitive, depthStencil: { format: "depth32float", depthWriteEnabled: true, depthCompare } },
+          ),
+        ),
+      );
     }
     return out;
   }
@@ -290,10 +379,15 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
   /** Pipelines that every scene needs. */
   async prepareCommon() {
     return this.pipeline("common", async () => {
-      const module = await this.module("backdrop", `${await text("web/wgsl/frame.wgsl")}\n${await text("web/wgsl/backdrop.wgsl")}`);
+      const module = await this.module(
+        "backdrop",
+        `${await text("web/wgsl/frame.wgsl")}\n${await text("web/wgsl/backdrop.wgsl")}`,
+      );
       const presenting = await this.module("present", await text("web/wgsl/present.wgsl"));
       const counting = await this.module("statistics", await text("web/wgsl/statistics.wgsl"));
-      const copying = await this.module("copy", `
+      const copying = await this.module(
+        "copy",
+        `
 @group(0) @binding(1) var image: texture_2d<f32>;
 @vertex
 fn everywhere(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
@@ -302,22 +396,37 @@ fn everywhere(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
 @fragment
 fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return textureLoad(image, vec2<u32>(position.xy), 0);
-}`);
+}`,
+      );
       const groups = [this.frameLayout, this.layouts.backdrop];
       const depthStencil = { format: "depth32float", depthWriteEnabled: true, depthCompare: "less" };
       const targets = [{ format: "rgba32float" }];
       const strip = { topology: "triangle-strip" };
-      const draw = (label, vertex, entryPoint, extra) => this.render2(label, groups, vertex, { module, entryPoint, targets }, extra);
+      const draw = (label, vertex, entryPoint, extra) =>
+        this.render2(label, groups, vertex, { module, entryPoint, targets }, extra);
       const opaque = { ...this.vertexState(module, "triangles"), entryPoint: "opaque_place" };
-      const copy = (format) => this.render2("copy", [this.layouts.copy], { module: copying, entryPoint: "everywhere" },
-        { module: copying, entryPoint: "copy", targets: [{ format }] });
+      const copy = (format) =>
+        this.render2(
+          "copy",
+          [this.layouts.copy],
+          { module: copying, entryPoint: "everywhere" },
+          { module: copying, entryPoint: "copy", targets: [{ format }] },
+        );
       return {
-        backdrop: await draw("backdrop", { module, entryPoint: "everywhere" }, "backdrop",
-          { depthStencil: { ...depthStencil, depthCompare: "always", depthWriteEnabled: false } }),
-        floor: await draw("floor", { module, entryPoint: "floor_place" }, "floor_color", { primitive: strip, depthStencil }),
+        backdrop: await draw("backdrop", { module, entryPoint: "everywhere" }, "backdrop", {
+          depthStencil: { ...depthStencil, depthCompare: "always", depthWriteEnabled: false },
+        }),
+        floor: await draw("floor", { module, entryPoint: "floor_place" }, "floor_color", {
+          primitive: strip,
+          depthStencil,
+        }),
         opaque: await draw("opaque", opaque, "opaque_color", { depthStencil }),
-        present: await this.render2("present", [this.layouts.present], { module: presenting, entryPoint: "everywhere" },
-          { module: presenting, entryPoint: "present", targets: [{ format: this.format }] }),
+        present: await this.render2(
+          "present",
+          [this.layouts.present],
+          { module: presenting, entryPoint: "everywhere" },
+          { module: presenting, entryPoint: "present", targets: [{ format: this.format }] },
+        ),
         copyIn: await copy(this.color),
         copyOut: await copy("rgba32float"),
         statistics: await this.device.createComputePipelineAsync({
@@ -333,16 +442,18 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
   setScene(scene) {
     for (const buffer of this.sceneBuffers ?? []) buffer.destroy();
     this.sceneBuffers = [];
+    this.exactKey = null;
     const upload = (data, usage) => {
       const buffer = this.buffer("scene", data.byteLength, usage | GPUBufferUsage.COPY_DST);
       this.device.queue.writeBuffer(buffer, 0, data);
       this.sceneBuffers.push(buffer);
       return buffer;
     };
-    const mesh = (geometry) => geometry && {
-      vertices: upload(geometry.vertices, GPUBufferUsage.VERTEX),
-      indices: geometry.indices && upload(geometry.indices, GPUBufferUsage.INDEX),
-    };
+    const mesh = (geometry) =>
+      geometry && {
+        vertices: upload(geometry.vertices, GPUBufferUsage.VERTEX),
+        indices: geometry.indices && upload(geometry.indices, GPUBufferUsage.INDEX),
+      };
     this.scene = scene;
     this.transparent = mesh(scene.transparent);
     this.opaque = mesh(scene.opaque);
@@ -351,13 +462,19 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     this.shadow?.destroy();
     const size = scene.floor > 0 ? SHADOW : 1;
     this.shadow = this.device.createTexture({
-      label: "shadow", size: [size, size], format: "rgba8unorm", usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST,
+      label: "shadow",
+      size: [size, size],
+      format: "rgba8unorm",
+      usage: GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_DST,
     });
     const data = scene.floor > 0 ? shadowOf(scene) : new Uint8Array(4);
     this.device.queue.writeTexture({ texture: this.shadow }, data, { bytesPerRow: 4 * size }, [size, size]);
     this.backdropGroup = this.device.createBindGroup({
       layout: this.layouts.backdrop,
-      entries: [{ binding: 0, resource: this.shadow.createView() }, { binding: 1, resource: this.sampler }],
+      entries: [
+        { binding: 0, resource: this.shadow.createView() },
+        { binding: 1, resource: this.sampler },
+      ],
     });
   }
 
@@ -366,17 +483,28 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if (this.width === width && this.height === height) return;
     for (const resource of this.sized ?? []) resource.destroy();
     this.sized = [];
+    this.exactKey = null;
     [this.width, this.height] = [width, height];
     this.canvas.width = width;
     this.canvas.height = height;
     this.textures = new Map();
     this.groups = new Map();
-    this.pixels = this.keep(this.buffer("pixels", 8 * width * height, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC));
-    this.taken = this.keep(this.buffer("taken", 16, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC));
+    this.pixels = this.keep(
+      this.buffer(
+        "pixels",
+        8 * width * height,
+        GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC,
+      ),
+    );
+    this.taken = this.keep(
+      this.buffer("taken", 16, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC),
+    );
     const most = Math.floor(this.listBytes / NODE_BYTES);
     this.capacity = Math.max(1 << 16, Math.min(this.maxNodes ?? most, most, 64 * width * height));
     if (this.maxNodes) this.capacity = Math.min(this.capacity, this.maxNodes);
-    this.nodes = this.keep(this.buffer("nodes", NODE_BYTES * this.capacity, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC));
+    this.nodes = this.keep(
+      this.buffer("nodes", NODE_BYTES * this.capacity, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC),
+    );
     this.bands = 1;
     const workgroups = Math.ceil(width / 16) * Math.ceil(height / 16);
     this.results = this.keep(this.buffer("results", 32 * workgroups, GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_SRC));
@@ -387,10 +515,16 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return resource;
   }
 
-  texture(name, format, usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_SRC) {
+  texture(
+    name,
+    format,
+    usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.TEXTURE_BINDING | GPUTextureUsage.COPY_SRC,
+  ) {
     const key = `${name} ${format}`;
     if (!this.textures.has(key)) {
-      const texture = this.keep(this.device.createTexture({ label: name, size: [this.width, this.height], format, usage }));
+      const texture = this.keep(
+        this.device.createTexture({ label: name, size: [this.width, this.height], format, usage }),
+      );
       this.textures.set(key, { texture, view: texture.createView() });
     }
     return this.textures.get(key).view;
@@ -398,7 +532,10 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 
   group(layout, entries) {
     const resource = (r) => (r instanceof GPUBuffer ? { buffer: r } : r);
-    return this.device.createBindGroup({ layout, entries: entries.map(([binding, r]) => ({ binding, resource: resource(r) })) });
+    return this.device.createBindGroup({
+      layout,
+      entries: entries.map(([binding, r]) => ({ binding, resource: resource(r) })),
+    });
   }
 
   drawTransparent(pass, ordered) {
@@ -416,7 +553,12 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     const pass = encoder.beginRenderPass({
       label: "opaque",
       colorAttachments: [{ view: this.texture("background", "rgba32float"), loadOp: "clear", storeOp: "store" }],
-      depthStencilAttachment: { view: this.texture("depth", "depth32float"), depthLoadOp: "clear", depthStoreOp: "store", depthClearValue: 1 },
+      depthStencilAttachment: {
+        view: this.texture("depth", "depth32float"),
+        depthLoadOp: "clear",
+        depthStoreOp: "store",
+        depthClearValue: 1,
+      },
     });
     pass.setBindGroup(0, this.frameGroup);
     pass.setBindGroup(1, this.backdropGroup);
@@ -456,25 +598,44 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
       if (y1 === y0) continue;
       encoder.clearBuffer(this.taken);
       const listing = encoder.beginRenderPass({
-        label: "list", colorAttachments: [], depthStencilAttachment: this.readOnlyDepth, ...this.times(band === 0, false, 2),
+        label: "list",
+        colorAttachments: [],
+        depthStencilAttachment: this.readOnlyDepth,
+        ...this.times(band === 0, false, 2),
       });
       listing.setScissorRect(0, y0, this.width, y1 - y0);
       listing.setPipeline(pipelines.list);
       listing.setBindGroup(0, this.frameGroup);
-      listing.setBindGroup(1, this.group(this.layouts.list,
-        [[0, this.taken], [1, this.pixels], [2, this.nodes], [3, this.texture("depth", "depth32float")]]));
+      listing.setBindGroup(
+        1,
+        this.group(this.layouts.list, [
+          [0, this.taken],
+          [1, this.pixels],
+          [2, this.nodes],
+          [3, this.texture("depth", "depth32float")],
+        ]),
+      );
       this.drawTransparent(listing);
       listing.end();
       const sorting = encoder.beginRenderPass({
         label: "sort",
-        colorAttachments: [{ view: this.texture("exact", "rgba32float"), loadOp: band ? "load" : "clear", storeOp: "store" }],
+        colorAttachments: [
+          { view: this.texture("exact", "rgba32float"), loadOp: band ? "load" : "clear", storeOp: "store" },
+        ],
         ...this.times(false, band === this.bands - 1, 2),
       });
       sorting.setScissorRect(0, y0, this.width, y1 - y0);
       sorting.setPipeline(pipelines.sort);
       sorting.setBindGroup(0, this.frameGroup);
-      sorting.setBindGroup(1, this.group(this.layouts.sort,
-        [[0, this.taken], [1, this.pixels], [2, this.nodes], [3, this.texture("background", "rgba32float")]]));
+      sorting.setBindGroup(
+        1,
+        this.group(this.layouts.sort, [
+          [0, this.taken],
+          [1, this.pixels],
+          [2, this.nodes],
+          [3, this.texture("background", "rgba32float")],
+        ]),
+      );
       sorting.draw(3);
       sorting.end();
       if (this.takenLog) encoder.copyBufferToBuffer(this.taken, 0, this.takenLog, 4 * band, 4);
@@ -487,7 +648,11 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     }
     const color = this.texture("over", this.color);
     const blit = (label, pipeline, from, to, times) => {
-      const pass = encoder.beginRenderPass({ label, colorAttachments: [{ view: to, loadOp: "clear", storeOp: "store" }], ...times });
+      const pass = encoder.beginRenderPass({
+        label,
+        colorAttachments: [{ view: to, loadOp: "clear", storeOp: "store" }],
+        ...times,
+      });
       pass.setPipeline(pipeline);
       pass.setBindGroup(0, this.group(this.layouts.copy, [[1, from]]));
       pass.draw(3);
@@ -521,13 +686,25 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     const views = plan.targets.map((t, i) => this.texture(`target ${i}`, t.format));
     const first = encoder.beginRenderPass({
       label: "pass 1",
-      colorAttachments: views.map((view, i) => ({ view, loadOp: "clear", storeOp: "store", clearValue: plan.targets[i].clear })),
+      colorAttachments: views.map((view, i) => ({
+        view,
+        loadOp: "clear",
+        storeOp: "store",
+        clearValue: plan.targets[i].clear,
+      })),
       depthStencilAttachment: this.readOnlyDepth,
       ...this.times(true, false, 0),
     });
     first.setPipeline(pipelines.pass1);
     first.setBindGroup(0, this.frameGroup);
-    if (slots) first.setBindGroup(1, this.group(this.layouts.slots, [[8, slots], [9, this.texture("depth", "depth32float")]]));
+    if (slots)
+      first.setBindGroup(
+        1,
+        this.group(this.layouts.slots, [
+          [8, slots],
+          [9, this.texture("depth", "depth32float")],
+        ]),
+      );
     this.drawTransparent(first);
     first.end();
     const state = views.map((view, i) => [i, view]);
@@ -568,7 +745,13 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     third.setPipeline(pipelines.resolve);
     third.setBindGroup(0, this.frameGroup);
     third.setBindGroup(1, stateGroup);
-    third.setBindGroup(2, this.group(this.layouts.result, [[0, weighted], [1, this.texture("background", "rgba32float")]]));
+    third.setBindGroup(
+      2,
+      this.group(this.layouts.result, [
+        [0, weighted],
+        [1, this.texture("background", "rgba32float")],
+      ]),
+    );
     third.draw(3);
     third.end();
   }
@@ -576,9 +759,10 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
   /**
    * Draws a frame.
    *
-   * `options`: camera, method, mode ("image", "split", "error", "count"), split in [0, 1], scale of the colours, measure (whether to
-   * compare with the exact image), opacity, backdrop (linear colour or nothing for the studio), oneColor, transparentOnly.
-   * Resolves, where `measure` is on, to { mse, worst, fragments, most, covered, overflow, seconds, exactSeconds }.
+   * `options`: camera, method, mode ("image", "split", "error", "count"), split in [0, 1], scale of the colours,
+   * measure (whether to compare with the exact image), opacity, backdrop (linear colour or nothing for the studio),
+   * oneColor, transparentOnly. Resolves, where `measure` is on, to { mse, worst, fragments, most, covered, overflow,
+   * seconds, exactSeconds }.
    */
   async draw(options) {
     this.options = options;
@@ -589,8 +773,10 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     const lists = exactNeeded ? await this.prepare("exact") : null;
     const { device, width, height } = this;
     this.view = viewOf(options.camera, this.scene.transparent, width, height, false);
-    frameData(this.frameFloats ??= new Float32Array(FRAME_FLOATS), this.view, width, height, this.scene, options,
-      { firstRow: 0, capacity: this.capacity });
+    frameData((this.frameFloats ??= new Float32Array(FRAME_FLOATS)), this.view, width, height, this.scene, options, {
+      firstRow: 0,
+      capacity: this.capacity,
+    });
     device.queue.writeBuffer(this.frame, 0, this.frameFloats);
     const modes = { image: 0, split: 1, error: 2, count: 3 };
     const data = new ArrayBuffer(16);
@@ -600,9 +786,13 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     device.queue.writeBuffer(this.viewData, 0, data);
 
     const encoder = device.createCommandEncoder();
-    if (options.measure && !this.takenLog) this.takenLog = this.buffer("log", 4 * MAX_BANDS, GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC);
+    if (options.measure && !this.takenLog)
+      this.takenLog = this.buffer("log", 4 * MAX_BANDS, GPUBufferUsage.COPY_DST | GPUBufferUsage.COPY_SRC);
     this.drawOpaque(encoder, common);
-    if (exactNeeded) this.drawExact(encoder, lists);
+    // While neither view nor scene changes, the exact image stays what it is.
+    const key = exactKey(this, options);
+    if (exactNeeded && this.exactKey !== key) this.drawExact(encoder, lists);
+    if (exactNeeded) this.exactKey = key;
     if (m.kind === "objects") this.drawObjects(encoder, common, pipelines);
     if (m.kind === "blended") this.drawBlended(encoder, m, pipelines);
     const exact = exactNeeded ? this.texture("exact", "rgba32float") : null;
@@ -615,7 +805,15 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
       colorAttachments: [{ view: this.context.getCurrentTexture().createView(), loadOp: "clear", storeOp: "store" }],
     });
     pass.setPipeline(common.present);
-    pass.setBindGroup(0, this.group(this.layouts.present, [[0, this.viewData], [1, image], [2, exact ?? image], [3, this.pixels]]));
+    pass.setBindGroup(
+      0,
+      this.group(this.layouts.present, [
+        [0, this.viewData],
+        [1, image],
+        [2, exact ?? image],
+        [3, this.pixels],
+      ]),
+    );
     pass.draw(3);
     pass.end();
     device.queue.submit([encoder.finish()]);
@@ -624,6 +822,7 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if (found.overflow && this.bands < MAX_BANDS) {
       // What does not fit at once is listed in bands.
       this.bands = Math.min(MAX_BANDS, this.bands * 2);
+      this.exactKey = null;
       return this.draw(options);
     }
     return found;
@@ -632,11 +831,23 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
   measure(encoder, common, image, exact) {
     const pass = encoder.beginComputePass({ label: "statistics" });
     pass.setPipeline(common.statistics);
-    pass.setBindGroup(0, this.group(common.statistics.getBindGroupLayout(0), [[0, image], [1, exact], [2, this.pixels], [3, this.results]]));
+    pass.setBindGroup(
+      0,
+      this.group(common.statistics.getBindGroupLayout(0), [
+        [0, image],
+        [1, exact],
+        [2, this.pixels],
+        [3, this.results],
+      ]),
+    );
     pass.dispatchWorkgroups(Math.ceil(this.width / 16), Math.ceil(this.height / 16));
     pass.end();
     const bytes = this.results.size;
-    const staging = this.buffer("staging", bytes + 4 * MAX_BANDS + 32, GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST);
+    const staging = this.buffer(
+      "staging",
+      bytes + 4 * MAX_BANDS + 32,
+      GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST,
+    );
     encoder.copyBufferToBuffer(this.results, 0, staging, 0, bytes);
     encoder.copyBufferToBuffer(this.takenLog, 0, staging, bytes, 4 * MAX_BANDS);
     if (this.timed) {
@@ -675,7 +886,7 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return found;
   }
 
-  /** Linear colours of the last frame, three numbers a pixel, rows from the top: "method" as it was drawn, or "exact". */
+  /** Linear colours of the last frame, three a pixel, rows from the top: "method" as it was drawn, or "exact". */
   async readImage(which = this.lastImage) {
     const { texture } = this.textures.get(`${which} rgba32float`);
     const stride = Math.ceil((16 * this.width) / 256) * 256;
@@ -695,9 +906,10 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     return out;
   }
 
-  /** The transparent fragments of the last exact frame: { offsets, view_z, alpha, color, width, height, near, far, range }. */
+  /** The fragments of the last exact frame: { offsets, view_z, alpha, color, width, height, near, far, range }. */
   async fragments() {
-    if (this.bands > 1) throw new Error("The frame has more fragments than the lists hold at once; make the window smaller.");
+    if (this.bands > 1)
+      throw new Error("The frame has more fragments than the lists hold at once; make the window smaller.");
     const { width, height } = this;
     const bytes = [8 * width * height, 16, NODE_BYTES * this.capacity];
     const sources = [this.pixels, this.taken];
@@ -711,7 +923,8 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     await Promise.all(stagings.map((s) => s.mapAsync(GPUMapMode.READ)));
     const [pixels, taken] = stagings.map((s) => new Uint32Array(s.getMappedRange().slice(0)));
     const count = Math.min(taken[0], this.capacity);
-    if (taken[0] > this.capacity) throw new Error("The frame has more fragments than the lists hold; make the window smaller.");
+    if (taken[0] > this.capacity)
+      throw new Error("The frame has more fragments than the lists hold; make the window smaller.");
     const staging = this.buffer("nodes", NODE_BYTES * count, GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST);
     const again = this.device.createCommandEncoder();
     if (count) again.copyBufferToBuffer(this.nodes, 0, staging, 0, NODE_BYTES * count);
@@ -724,14 +937,20 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     const [viewZ, alpha, color] = [new Float32Array(count), new Float32Array(count), new Float32Array(3 * count)];
     let k = 0;
     for (let p = 0; p < width * height; p++) {
+      // A list holds the last fragment first; among fragments of one depth the exact image takes the first first.
+      k += pixels[2 * p + 1];
+      offsets[p + 1] = k;
+      let to = k;
       for (let node = pixels[2 * p]; node !== 0; node = words[5 * (node - 1)]) {
         const i = 5 * (node - 1);
-        viewZ[k] = floats[i + 1];
-        alpha[k] = floats[i + 2];
-        color.set([words[i + 3] & 65535, words[i + 3] >>> 16, words[i + 4] & 65535].map((x) => x / 65535), 3 * k);
-        k += 1;
+        to -= 1;
+        viewZ[to] = floats[i + 1];
+        alpha[to] = floats[i + 2];
+        color.set(
+          [words[i + 3] & 65535, words[i + 3] >>> 16, words[i + 4] & 65535].map((x) => x / 65535),
+          3 * to,
+        );
       }
-      offsets[p + 1] = k;
     }
     return { offsets, view_z: viewZ, alpha, color, width, height, near: NEAR, far: FAR, range: this.view.range };
   }
@@ -740,5 +959,4 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
   destroy() {
     this.device.destroy();
   }
-
 }

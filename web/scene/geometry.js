@@ -1,4 +1,5 @@
-// What a scene is made of: indexed triangles, strands, splats or single fragments, in arrays that a GPU takes as they are.
+// What a scene is made of: indexed triangles, strands, splats or single fragments, in arrays that a GPU takes as they
+// are.
 
 import { add, cross, frameOf, sub, unit } from "./vector.js";
 
@@ -64,8 +65,18 @@ export class TriangleBuilder {
       if (i & 4) p = add(p, z);
       return p;
     };
-    for (const ids of [[0, 1, 3, 2], [4, 5, 7, 6]]) this.flat(ids.map(corner), face);
-    for (const ids of [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6]]) this.flat(ids.map(corner), edge);
+    for (const ids of [
+      [0, 1, 3, 2],
+      [4, 5, 7, 6],
+    ])
+      this.flat(ids.map(corner), face);
+    for (const ids of [
+      [0, 2, 6, 4],
+      [1, 3, 7, 5],
+      [0, 1, 5, 4],
+      [2, 3, 7, 6],
+    ])
+      this.flat(ids.map(corner), edge);
   }
 
   /**
@@ -133,10 +144,12 @@ export class TriangleBuilder {
       bytes.set(this.bytes.slice(8 * i, 8 * i + 8), 20 * i + 12);
     }
     if (this.groups.length === 0) this.group();
-    const groups = this.groups.map((g, i) => ({
-      first: g.first,
-      count: (this.groups[i + 1]?.first ?? this.indices.length) - g.first,
-    })).filter((g) => g.count > 0);
+    const groups = this.groups
+      .map((g, i) => ({
+        first: g.first,
+        count: (this.groups[i + 1]?.first ?? this.indices.length) - g.first,
+      }))
+      .filter((g) => g.count > 0);
     for (const group of groups) {
       const bounds = new Bounds();
       for (let i = group.first; i < group.first + group.count; i++) {
@@ -181,7 +194,10 @@ export class SplatBuilder {
     const bounds = new Bounds();
     this.items.forEach((item, i) => {
       floats.set(item.slice(0, 9), 10 * i);
-      bytes.set(item.slice(9).map((x) => Math.round(255 * Math.min(1, Math.max(0, x)))), 40 * i + 36);
+      bytes.set(
+        item.slice(9).map((x) => Math.round(255 * Math.min(1, Math.max(0, x)))),
+        40 * i + 36,
+      );
       bounds.take(item[0], item[1], item[2]);
     });
     return { kind: "splats", vertices, count, groups: [], bounds };

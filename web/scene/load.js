@@ -1,4 +1,5 @@
-// Files that are dropped on the page: glTF, .splat and fragment lists. What is not taken from a file is named in `notes`.
+// Files that are dropped on the page: glTF, .splat and fragment lists. What is not taken from a file is named in
+// `notes`.
 
 import { Bounds, FRAGMENT_BYTES, SplatBuilder, TriangleBuilder } from "./geometry.js";
 import { readNpz } from "./npz.js";
@@ -10,7 +11,10 @@ const RADIUS = 1.9;
 /** Makes a scene of files; the first that is a scene counts, others may be buffers that it names. */
 export async function loadFiles(files) {
   const name = (f) => f.name.toLowerCase();
-  const is = (...ends) => (f) => ends.some((end) => name(f).endsWith(end));
+  const is =
+    (...ends) =>
+    (f) =>
+      ends.some((end) => name(f).endsWith(end));
   const gltf = files.find(is(".glb", ".gltf"));
   if (gltf) return loadGltf(gltf, files);
   const splat = files.find(is(".splat"));
@@ -21,13 +25,19 @@ export async function loadFiles(files) {
 }
 
 const base = (file) => ({
-  name: "file", title: file.name, gloss: 0.4, strandWidth: 0, opaque: null, notes: [],
+  name: "file",
+  title: file.name,
+  gloss: 0.4,
+  strandWidth: 0,
+  opaque: null,
+  notes: [],
 });
 
 /** A view of a scene that has been scaled to RADIUS and stands on the floor. */
 const VIEW = { target: [0, 1.1, 0], yaw: 0.5, pitch: 0.22, distance: 6.2, fov: 36 };
 
-// 32 bytes a splat: centre and standard deviations (6 f32), colour and opacity (4 u8), rotation w x y z (4 u8, 128 is 0).
+// 32 bytes a splat: centre and standard deviations (6 f32), colour and opacity (4 u8), rotation w x y z (4 u8, 128 is
+// 0).
 async function loadSplat(file) {
   const buffer = await file.arrayBuffer();
   if (buffer.byteLength === 0 || buffer.byteLength % 32) {
@@ -60,8 +70,13 @@ async function loadSplat(file) {
     // Files of this kind have y down; colours are as displayed, here made linear.
     const flip = (p) => [p[0], -p[1], -p[2]];
     const place = flip([0, 1, 2].map((c) => (f[c] - center[c]) * scale));
-    out.splat([place[0], place[1] + 1.1, place[2]], axes.map(flip), [f[3], f[4], f[5]].map((s) => s * scale),
-      rgba.slice(0, 3).map(linear), rgba[3]);
+    out.splat(
+      [place[0], place[1] + 1.1, place[2]],
+      axes.map(flip),
+      [f[3], f[4], f[5]].map((s) => s * scale),
+      rgba.slice(0, 3).map(linear),
+      rgba[3],
+    );
   }
   if (broken) scene.notes.push(`${broken} of ${count} splats are not finite and were left out.`);
   return { ...scene, transparent: out.finish(), view: VIEW };
@@ -78,7 +93,8 @@ const linear = (c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
 async function loadFragments(file) {
   const arrays = await readNpz(await file.arrayBuffer());
   const need = (name) => {
-    if (!arrays[name]) throw new Error(`${file.name} has no array "${name}"; a fragment list has offsets, view_z, alpha and color.`);
+    if (!arrays[name])
+      throw new Error(`${file.name} has no array "${name}"; a fragment list has offsets, view_z, alpha and color.`);
     return arrays[name].data;
   };
   const one = (name) => (arrays[name] ? Number(arrays[name].data[0]) : 0);
@@ -90,7 +106,9 @@ async function loadFragments(file) {
   }
   const count = Number(offsets[pixels]);
   if (viewZ.length !== count || alpha.length !== count || color.length !== 3 * count) {
-    throw new Error(`${file.name}: offsets end at ${count}, but there are ${viewZ.length} depths and ${alpha.length} alphas.`);
+    throw new Error(
+      `${file.name}: offsets end at ${count}, but there are ${viewZ.length} depths and ${alpha.length} alphas.`,
+    );
   }
   const vertices = new ArrayBuffer(Math.max(1, count) * FRAGMENT_BYTES);
   const words = new Uint32Array(vertices);
@@ -99,7 +117,8 @@ async function loadFragments(file) {
   for (let p = 0; p < pixels; p++) {
     for (let i = Number(offsets[p]); i < Number(offsets[p + 1]); i++) {
       const v = viewZ[i];
-      if (!(v > 0 && v < Infinity)) throw new Error(`${file.name}: view_z[${i}] is ${v}; it must be finite and above 0.`);
+      if (!(v > 0 && v < Infinity))
+        throw new Error(`${file.name}: view_z[${i}] is ${v}; it must be finite and above 0.`);
       words[6 * i] = p;
       floats.set([v, color[3 * i], color[3 * i + 1], color[3 * i + 2], alpha[i]], 6 * i + 1);
       range = [Math.min(range[0], v), Math.max(range[1], v)];
@@ -111,32 +130,60 @@ async function loadFragments(file) {
   bounds.take(1, 1, 1);
   if (range[0] === range[1]) range = [range[0], range[1] * 1.001];
   return {
-    ...base(file), gloss: 0, floor: 0, view: VIEW, size: [width, height],
+    ...base(file),
+    gloss: 0,
+    floor: 0,
+    view: VIEW,
+    size: [width, height],
     transparent: { kind: "fragments", vertices, count, groups: [], bounds, range },
-    notes: [`${width} x ${height} pixels with ${count.toLocaleString("en")} fragments. A list has no camera, so that the view is fixed.`],
+    notes: [
+      `${width} x ${height} pixels with ${count.toLocaleString("en")} fragments. ` +
+        "A list has no camera, so that the view is fixed.",
+    ],
   };
 }
 
-const COMPONENTS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const COMPONENTS = {
+  5120: Int8Array,
+  5121: Uint8Array,
+  5122: Int16Array,
+  5123: Uint16Array,
+  5125: Uint32Array,
+  5126: Float32Array,
+};
 const WIDTHS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 /** What a glTF file may require without being refused. */
-const READ = new Set(["KHR_materials_unlit", "KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume",
-  "KHR_materials_specular", "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_emissive_strength",
-  "KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform", "KHR_mesh_quantization", "KHR_lights_punctual"]);
+const READ = new Set([
+  "KHR_materials_unlit",
+  "KHR_materials_transmission",
+  "KHR_materials_ior",
+  "KHR_materials_volume",
+  "KHR_materials_specular",
+  "KHR_materials_clearcoat",
+  "KHR_materials_sheen",
+  "KHR_materials_emissive_strength",
+  "KHR_materials_pbrSpecularGlossiness",
+  "KHR_texture_transform",
+  "KHR_mesh_quantization",
+  "KHR_lights_punctual",
+]);
 
 async function loadGltf(file, files) {
   const bytes = await file.arrayBuffer();
-  const { json, binary } = file.name.toLowerCase().endsWith(".glb") ? readGlb(file.name, bytes)
+  const { json, binary } = file.name.toLowerCase().endsWith(".glb")
+    ? readGlb(file.name, bytes)
     : { json: JSON.parse(new TextDecoder().decode(bytes)), binary: null };
   const refused = (json.extensionsRequired ?? []).filter((e) => !READ.has(e));
   if (refused.length) throw new Error(`${file.name} needs ${refused.join(", ")}, which this page does not read.`);
-  const buffers = await Promise.all((json.buffers ?? []).map(async (b) => {
-    if (!b.uri) return binary;
-    if (b.uri.startsWith("data:")) return (await fetch(b.uri)).arrayBuffer();
-    const part = files.find((f) => f.name === decodeURIComponent(b.uri).split("/").pop());
-    if (!part) throw new Error(`${file.name} needs ${b.uri}: drop both files together.`);
-    return part.arrayBuffer();
-  }));
+  const buffers = await Promise.all(
+    (json.buffers ?? []).map(async (b) => {
+      if (!b.uri) return binary;
+      if (b.uri.startsWith("data:")) return (await fetch(b.uri)).arrayBuffer();
+      const part = files.find((f) => f.name === decodeURIComponent(b.uri).split("/").pop());
+      if (!part) throw new Error(`${file.name} needs ${b.uri}: drop both files together.`);
+      return part.arrayBuffer();
+    }),
+  );
   const accessor = (index) => {
     const a = json.accessors[index];
     const [Type, width] = [COMPONENTS[a.componentType], WIDTHS[a.type]];
@@ -147,16 +194,24 @@ async function loadGltf(file, files) {
       const start = (view.byteOffset ?? 0) + (offset ?? 0);
       return (i) => new C(buffers[view.buffer].slice(start + i * stride, start + i * stride + C.BYTES_PER_ELEMENT * w));
     };
-    const divisor = a.normalized ? { 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 }[a.componentType] ?? 1 : 1;
+    const divisor = a.normalized ? ({ 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 }[a.componentType] ?? 1) : 1;
     if (a.bufferView !== undefined) {
       const at = raw(a.bufferView, a.byteOffset, a.count, Type, width);
-      for (let i = 0; i < a.count; i++) out.set(Array.from(at(i), (x) => (a.normalized ? Math.max(-1, x / divisor) : x)), i * width);
+      for (let i = 0; i < a.count; i++)
+        out.set(
+          Array.from(at(i), (x) => (a.normalized ? Math.max(-1, x / divisor) : x)),
+          i * width,
+        );
     }
     if (a.sparse) {
       const { indices, values } = a.sparse;
       const index = raw(indices.bufferView, indices.byteOffset, a.sparse.count, COMPONENTS[indices.componentType], 1);
       const value = raw(values.bufferView, values.byteOffset, a.sparse.count, Type, width);
-      for (let i = 0; i < a.sparse.count; i++) out.set(Array.from(value(i), (x) => x / divisor), index(i)[0] * width);
+      for (let i = 0; i < a.sparse.count; i++)
+        out.set(
+          Array.from(value(i), (x) => x / divisor),
+          index(i)[0] * width,
+        );
     }
     return { data: out, width, count: a.count };
   };
@@ -172,7 +227,8 @@ async function loadGltf(file, files) {
         left.add("points and lines");
         continue;
       }
-      if (primitive.extensions?.KHR_draco_mesh_compression) throw new Error(`${file.name} is compressed with Draco, which this page does not read.`);
+      if (primitive.extensions?.KHR_draco_mesh_compression)
+        throw new Error(`${file.name} is compressed with Draco, which this page does not read.`);
       if (primitive.attributes.POSITION === undefined) continue;
       if (node.skin !== undefined) left.add("skins (the rest pose is shown)");
       if (primitive.targets) left.add("morph targets");
@@ -224,9 +280,11 @@ async function loadGltf(file, files) {
     if (attributes.NORMAL !== undefined) {
       const found = accessor(attributes.NORMAL).data;
       const m = part.matrix;
-      normals.forEach((n, i) => [0, 1, 2].forEach((r) => {
-        n[r] = m[r] * found[3 * i] + m[4 + r] * found[3 * i + 1] + m[8 + r] * found[3 * i + 2];
-      }));
+      normals.forEach((n, i) =>
+        [0, 1, 2].forEach((r) => {
+          n[r] = m[r] * found[3 * i] + m[4 + r] * found[3 * i + 1] + m[8 + r] * found[3 * i + 2];
+        }),
+      );
     } else {
       for (const [a, b, c] of triangles) {
         const n = cross(sub(points[b], points[a]), sub(points[c], points[a]));
@@ -241,20 +299,32 @@ async function loadGltf(file, files) {
     const first = to.vertices;
     points.forEach((p, i) => {
       const w = tint ? Array.from(tint.data.subarray(tint.width * i, tint.width * (i + 1))) : [1, 1, 1, 1];
-      to.vertex(p, unit(normals[i]), { color: part.color.map((c, r) => c * w[r]), alpha: alpha * (w[3] ?? 1), rim: clear ? 0.2 : 0.45 });
+      to.vertex(p, unit(normals[i]), {
+        color: part.color.map((c, r) => c * w[r]),
+        alpha: alpha * (w[3] ?? 1),
+        rim: clear ? 0.2 : 0.45,
+      });
     });
     for (const [a, b, c] of triangles) to.triangle(first + a, first + b, first + c);
   });
-  if (!clear) scene.notes.push("Nothing in this file is transparent, so that all of it is shown at an opacity of 0.35.");
+  if (!clear)
+    scene.notes.push("Nothing in this file is transparent, so that all of it is shown at an opacity of 0.35.");
   if (left.size) scene.notes.push(`Left out: ${[...left].join(", ")}.`);
   const tall = ((bounds.greatest[1] - bounds.least[1]) * scale) / 2;
-  return { ...scene, transparent: out.finish(), opaque: solid.vertices ? solid.finish() : null, view: { ...VIEW, target: [0, tall, 0] } };
+  return {
+    ...scene,
+    transparent: out.finish(),
+    opaque: solid.vertices ? solid.finish() : null,
+    view: { ...VIEW, target: [0, tall, 0] },
+  };
 }
 
 function readGlb(name, buffer) {
   const view = new DataView(buffer);
-  if (buffer.byteLength < 20 || view.getUint32(0, true) !== 0x46546c67) throw new Error(`${name} is no binary glTF file.`);
-  if (view.getUint32(4, true) !== 2) throw new Error(`${name} is glTF ${view.getUint32(4, true)}; only version 2 is read.`);
+  if (buffer.byteLength < 20 || view.getUint32(0, true) !== 0x46546c67)
+    throw new Error(`${name} is no binary glTF file.`);
+  if (view.getUint32(4, true) !== 2)
+    throw new Error(`${name} is glTF ${view.getUint32(4, true)}; only version 2 is read.`);
   let [json, binary] = [null, null];
   for (let at = 12; at + 8 <= buffer.byteLength;) {
     const [size, kind] = [view.getUint32(at, true), view.getUint32(at + 4, true)];
@@ -271,9 +341,21 @@ function readGlb(name, buffer) {
 function compose({ translation: t = [0, 0, 0], rotation: q = [0, 0, 0, 1], scale: s = [1, 1, 1] }) {
   const [x, y, z, w] = q;
   return new Float32Array([
-    (1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + w * z) * s[0], 2 * (x * z - w * y) * s[0], 0,
-    2 * (x * y - w * z) * s[1], (1 - 2 * (x * x + z * z)) * s[1], 2 * (y * z + w * x) * s[1], 0,
-    2 * (x * z + w * y) * s[2], 2 * (y * z - w * x) * s[2], (1 - 2 * (x * x + y * y)) * s[2], 0,
-    t[0], t[1], t[2], 1,
+    (1 - 2 * (y * y + z * z)) * s[0],
+    2 * (x * y + w * z) * s[0],
+    2 * (x * z - w * y) * s[0],
+    0,
+    2 * (x * y - w * z) * s[1],
+    (1 - 2 * (x * x + z * z)) * s[1],
+    2 * (y * z + w * x) * s[1],
+    0,
+    2 * (x * z + w * y) * s[2],
+    2 * (y * z - w * x) * s[2],
+    (1 - 2 * (x * x + y * y)) * s[2],
+    0,
+    t[0],
+    t[1],
+    t[2],
+    1,
   ]);
 }

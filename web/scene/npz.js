@@ -1,8 +1,16 @@
 // NumPy's .npz: a zip file of .npy arrays. Reads stored and deflated entries, writes stored ones.
 
 const TYPES = {
-  "<f4": Float32Array, "<f8": Float64Array, "<u4": Uint32Array, "<i4": Int32Array, "<u8": BigUint64Array, "<i8": BigInt64Array,
-  "|u1": Uint8Array, "|i1": Int8Array, "<u2": Uint16Array, "<i2": Int16Array,
+  "<f4": Float32Array,
+  "<f8": Float64Array,
+  "<u4": Uint32Array,
+  "<i4": Int32Array,
+  "<u8": BigUint64Array,
+  "<i8": BigInt64Array,
+  "|u1": Uint8Array,
+  "|i1": Int8Array,
+  "<u2": Uint16Array,
+  "<i2": Int16Array,
 };
 
 const CRC = Uint32Array.from({ length: 256 }, (_, n) => {
@@ -82,7 +90,8 @@ export async function readNpz(buffer) {
   let at = view.getUint32(end + 16, true);
   const arrays = {};
   for (let i = 0; i < count; i++) {
-    if (at + 46 > bytes.length || view.getUint32(at, true) !== 0x02014b50) throw new Error("the zip directory is damaged");
+    if (at + 46 > bytes.length || view.getUint32(at, true) !== 0x02014b50)
+      throw new Error("the zip directory is damaged");
     const method = view.getUint16(at + 10, true);
     let [packed, size] = [view.getUint32(at + 20, true), view.getUint32(at + 24, true)];
     const [nameLength, extra, comment] = [28, 30, 32].map((k) => view.getUint16(at + k, true));
@@ -118,11 +127,16 @@ function readNpy(name, bytes) {
   const start = (wide ? 12 : 10) + (wide ? view.getUint32(8, true) : view.getUint16(8, true));
   const header = new TextDecoder("latin1").decode(bytes.subarray(wide ? 12 : 10, start));
   const type = /'descr':\s*'([^']+)'/.exec(header)?.[1];
-  const shape = (/'shape':\s*\(([^)]*)\)/.exec(header)?.[1] ?? "").split(",").map((s) => s.trim()).filter(Boolean).map(Number);
+  const shape = (/'shape':\s*\(([^)]*)\)/.exec(header)?.[1] ?? "")
+    .split(",")
+    .map((s) => s.trim())
+    .filter(Boolean)
+    .map(Number);
   if (/'fortran_order':\s*True/.test(header)) throw new Error(`${name} is in Fortran order; save it in C order`);
   const Type = TYPES[type];
   if (!Type) throw new Error(`${name} holds ${type}, which is not read here`);
   const length = shape.reduce((product, n) => product * n, 1);
-  if (bytes.length - start < length * Type.BYTES_PER_ELEMENT) throw new Error(`${name} is shorter than its shape ${shape} says`);
+  if (bytes.length - start < length * Type.BYTES_PER_ELEMENT)
+    throw new Error(`${name} is shorter than its shape ${shape} says`);
   return { data: new Type(bytes.slice(start, start + length * Type.BYTES_PER_ELEMENT).buffer), shape };
 }

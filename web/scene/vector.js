@@ -39,10 +39,22 @@ export function lookAt(eye, target, up = [0, 1, 0]) {
   const right = unit(cross(up, back));
   const above = cross(back, right);
   return new Float32Array([
-    right[0], above[0], back[0], 0,
-    right[1], above[1], back[1], 0,
-    right[2], above[2], back[2], 0,
-    -dot(right, eye), -dot(above, eye), -dot(back, eye), 1,
+    right[0],
+    above[0],
+    back[0],
+    0,
+    right[1],
+    above[1],
+    back[1],
+    0,
+    right[2],
+    above[2],
+    back[2],
+    0,
+    -dot(right, eye),
+    -dot(above, eye),
+    -dot(back, eye),
+    1,
   ]);
 }
 

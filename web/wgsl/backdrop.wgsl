@@ -1,4 +1,5 @@
-// The backdrop, a floor with the coloured shadow of what stands on it, and opaque surfaces. All write linear colour and depth.
+// The backdrop, a floor with the coloured shadow of what stands on it, and opaque surfaces. All write linear colour and
+// depth.
 @group(1) @binding(0) var shadow: texture_2d<f32>;
 @group(1) @binding(1) var shadow_sampler: sampler;
 
@@ -54,7 +55,11 @@ struct Opaque {
 }
 
 @vertex
-fn opaque_place(@location(0) position: vec3<f32>, @location(1) normal: vec4<f32>, @location(2) color: vec4<f32>) -> Opaque {
+fn opaque_place(
+    @location(0) position: vec3<f32>,
+    @location(1) normal: vec4<f32>,
+    @location(2) color: vec4<f32>,
+) -> Opaque {
     return Opaque(frame.clip_from_world * vec4<f32>(position, 1.0), position, normal.xyz, color.rgb);
 }
 

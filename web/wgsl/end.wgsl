@@ -1,4 +1,5 @@
-// Nearest or farthest fragment by a depth test, where f32 targets cannot be blended into. The scale is a power of two, which takes no bit.
+// Nearest or farthest fragment by a depth test, where f32 targets cannot be blended into. The scale is a power of two,
+// which takes no bit.
 @group(1) @binding(9) var opaque_depth: texture_depth_2d;
 
 @fragment

@@ -19,7 +19,8 @@ struct Frame {
     depth_scale: f32,
     // Linear colour of a plain backdrop; w is 1 where the backdrop is a studio instead.
     backdrop: vec4<f32>,
-    // Half the side of the floor, first row of a band of lists, number of nodes that lists may take, 1 where one colour paints all.
+    // Half the side of the floor, first row of a band of lists, number of nodes that lists may take, 1 where one colour
+    // paints all.
     floor: f32,
     first_row: u32,
     capacity: u32,
@@ -28,7 +29,8 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
-// A fragment of a transparent surface: distance along the view direction, linear colour, opacity. Opacity below 0: nothing is there.
+// A fragment of a transparent surface: distance along the view direction, linear colour, opacity. Opacity below 0:
+// nothing is there.
 struct Surface { v: f32, color: vec3<f32>, alpha: f32 }
 
 // The slider multiplies absorbance.

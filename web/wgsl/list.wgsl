@@ -20,6 +20,7 @@ fn list(f: Varying) {
     let node = atomicAdd(&taken, 1u);
     if (node < frame.capacity) {
         let next = atomicExchange(&pixels[pixel][0], node + 1u);
-        nodes[node] = Node(next, found.v, found.alpha, pack2x16unorm(found.color.rg), pack2x16unorm(vec2<f32>(found.color.b, 0.0)));
+        let blue = pack2x16unorm(vec2<f32>(found.color.b, 0.0));
+        nodes[node] = Node(next, found.v, found.alpha, pack2x16unorm(found.color.rg), blue);
     }
 }

@@ -1,5 +1,5 @@
-// Exact: the fragments of a pixel's list, nearest first, composited with the over operator. Any number of them: each walk along the
-// list keeps the next sixteen.
+// Exact: the fragments of a pixel's list, nearest first, composited with the over operator. Any number of them: each
+// walk along the list keeps the next sixteen.
 struct Node { next: u32, v: f32, alpha: f32, red_green: u32, blue: u32 }
 
 @group(1) @binding(0) var<storage, read> taken: u32;

@@ -1,5 +1,5 @@
-// Of two images: sum of squared differences, greatest difference; of the lists: fragments, most of a pixel, covered pixels. One row
-// of results for every 16 x 16 pixels.
+// Of two images: sum of squared differences, greatest difference; of the lists: fragments, most of a pixel, covered
+// pixels. One row of results for every 16 x 16 pixels.
 @group(0) @binding(0) var image: texture_2d<f32>;
 @group(0) @binding(1) var truth: texture_2d<f32>;
 @group(0) @binding(2) var<storage, read> pixels: array<array<u32, 2>>;

@@ -1,5 +1,5 @@
-// Optical depth in front of a depth as 16 Haar coefficients: index 0 the mean, then 2^j wavelets of level j, j = 0 to 3.
-// A fragment is a step; nothing lies in the last sixteenth of [0, 1), so that the last value is the pixel's total.
+// Optical depth in front of a depth as 16 Haar coefficients: index 0 the mean, then 2^j wavelets of level j, j = 0 to
+// 3. A fragment is a step; nothing lies in the last sixteenth of [0, 1), so that the last value is the pixel's total.
 fn wavelet_place(z: f32) -> f32 {
     return clamp(0.5 + 0.5 * z, 0.0, 1.0) * 0.9375;
 }
@@ -20,7 +20,8 @@ fn wavelet_terms(z: f32, absorbance: f32) -> array<vec4<f32>, 4> {
     c[0].z = select(0.0, wavelet_term(x, 1u, absorbance), k1 == 0u);
     c[0].w = select(0.0, wavelet_term(x, 1u, absorbance), k1 == 1u);
     let k2 = u32(x * 4.0);
-    c[1] = select(vec4<f32>(0.0), vec4<f32>(wavelet_term(x, 2u, absorbance)), vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(k2));
+    let second = vec4<f32>(wavelet_term(x, 2u, absorbance));
+    c[1] = select(vec4<f32>(0.0), second, vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(k2));
     let k3 = u32(x * 8.0);
     let third = vec4<f32>(wavelet_term(x, 3u, absorbance));
     c[2] = select(vec4<f32>(0.0), third, vec4<u32>(0u, 1u, 2u, 3u) == vec4<u32>(k3));

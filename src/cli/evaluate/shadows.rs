@@ -6,8 +6,8 @@ use crate::evaluate::Image;
 use crate::evaluate::picture::{file_stem, write_image};
 use crate::evaluate::shadow::{Filter, ShadowJudged, judge};
 use crate::numeric::file::write_atomically;
+use crate::scene;
 use crate::scene::shadow::{ShadowOptions, Shadowed};
-use crate::scene::{self, Options};
 use serde_json::{Value, json};
 
 /// Methods that a shadow is told by where none is named: moments with both overestimations, and the technique that they replaced.
@@ -37,11 +37,7 @@ impl Session<'_> {
         let mut refused = false;
         for (scene, name) in scenes {
             let opened = scene::open(scene)?;
-            let options = Options {
-                size: self.options.options.size(),
-                seed: self.options.options.seed(),
-            };
-            let shadowed = opened.shadowed(&options, &ASKED)?;
+            let shadowed = opened.shadowed(&self.options.options.for_scene(), &ASKED)?;
             let (judged, remarks) = self.shadows_of(name, &shadowed);
             refused |= !remarks.is_empty();
             self.write_shadows(name, &shadowed, &judged)?;

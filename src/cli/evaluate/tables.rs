@@ -59,6 +59,10 @@ pub(super) fn rows(results: &[Row]) -> String {
         "passes",
         "needs",
     ])];
+    let moving = results.iter().any(|r| r.cpu.over_time.is_some());
+    if moving {
+        lines[0].extend(cells(["frame change x1e-6", "worst change"]));
+    }
     let mut shown: Vec<&MethodResult> = Vec::new();
     let mut notes = String::new();
     for row in results {
@@ -68,7 +72,7 @@ pub(super) fn rows(results: &[Row]) -> String {
             continue;
         }
         shown.push(r);
-        lines.push(vec![
+        let mut line = vec![
             name(&r.method, &r.capabilities),
             number(r.image_mse, |x| format!("{:.4}", x * 1e4)),
             number(r.image_psnr_db, |x| format!("{x:.1}")),
@@ -80,7 +84,15 @@ pub(super) fn rows(results: &[Row]) -> String {
             r.capabilities.colour_bits_per_pixel.to_string(),
             r.capabilities.geometry_passes.to_string(),
             r.capabilities.needs.list(),
-        ]);
+        ];
+        if moving {
+            let change = r.over_time;
+            line.push(number(change.and_then(|c| c.frame_change_mse), |x| {
+                format!("{:.4}", x * 1e6)
+            }));
+            line.push(number(change.and_then(|c| c.frame_change_worst), |x| format!("{x:.4}")));
+        }
+        lines.push(line);
     }
     for r in shown {
         notes += &order_note(r);

@@ -1,0 +1,19 @@
+// Puts the shipped networks' shaders into the package: as files, and as strings that a bundler needs no loader for.
+
+import fs from "node:fs";
+import { fileURLToPath } from "node:url";
+
+const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const from = here("../shaders/");
+fs.rmSync(here("shaders"), { recursive: true, force: true });
+fs.mkdirSync(here("shaders"));
+const names = fs.readdirSync(from).filter((name) => /\.(wgsl|glsl|hlsl|metal|md)$/.test(name));
+for (const name of names) fs.copyFileSync(from + name, here(`shaders/${name}`));
+
+const networks = ["recommended", "small"];
+const lines = networks.map((name) => {
+  const source = fs.readFileSync(`${from}${name}.wgsl`, "utf8");
+  return `/** WGSL of the network '${name}'. */\nexport const ${name} = ${JSON.stringify(source)};\n`;
+});
+fs.writeFileSync(here("networks.js"), `// Made by build.mjs of the files in shaders/.\n\n${lines.join("\n")}`);
+for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) fs.copyFileSync(here(`../../${name}`), here(name));

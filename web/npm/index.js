@@ -1,0 +1,300 @@
+// A three.js render pass for order-independent transparency by a tiny network.
+//
+// Opaque objects are drawn as ever. Transparent ones are drawn twice, in any order: once to add up absorbance and its
+// moments per pixel, once to add up colour by how much light passes in front of each fragment, which a network answers.
+
+import {
+  BlendMode,
+  Color,
+  CustomBlending,
+  FloatType,
+  HalfFloatType,
+  MaxEquation,
+  NearestFilter,
+  NoColorSpace,
+  NormalBlending,
+  OneFactor,
+  PassNode,
+  RGFormat,
+  RenderTarget,
+  RendererUtils,
+  Scene,
+  Sphere,
+  Vector2,
+} from "three/webgpu";
+import {
+  ivec2,
+  mrt,
+  output,
+  positionView,
+  screenCoordinate,
+  textureLoad,
+  uniform,
+  vec4,
+  wgsl,
+  wgslFn,
+} from "three/tsl";
+import * as networks from "./networks.js";
+
+const size = new Vector2();
+const sphere = new Sphere();
+const nothing = new Scene();
+let rendererState;
+let sceneState;
+
+/** What stands in a clear pixel of the ends: below -v of any fragment, and above none. */
+const NOTHING = -3e38;
+
+/** Why a renderer cannot run the pass, in words; null where it can. */
+export function whyUnsupported(renderer) {
+  const { backend } = renderer;
+  if (backend?.isWebGPUBackend !== true)
+    return "nmtPass needs WebGPU, and this renderer draws with WebGL; use oitPass there.";
+  if (!backend.device) return "nmtPass: call 'await renderer.init()' first.";
+  if (!backend.device.features.has("float32-blendable")) {
+    return "nmtPass needs blending into 32-bit float targets (float32-blendable), which this device lacks; use oitPass there.";
+  }
+  return null;
+}
+
+/** Whether a material is drawn by this pass: transparent, blended normally, with nothing that reads what is behind it. */
+const isDrawnHere = (material) =>
+  material.transparent === true &&
+  material.blending === NormalBlending &&
+  material.premultipliedAlpha !== true &&
+  !(material.transmission > 0) &&
+  material.transmissionNode?.isNode !== true &&
+  material.backdropNode?.isNode !== true;
+
+// The network's functions hold arrays, which TSL does not know; these wrappers have vectors.
+const PASS1 = `
+fn nmt_three_sums( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
+    let A = nmt_absorbance( alpha );
+    let b = nmt_moments( nmt_moment_depth( v, range.x, range.y ), A );
+    return vec4<f32>( A, b[ 0 ], b[ 1 ], b[ 2 ] );
+}`;
+const PASS1_LAST = `
+fn nmt_three_last( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
+    let b = nmt_moments( nmt_moment_depth( v, range.x, range.y ), nmt_absorbance( alpha ) );
+    return vec4<f32>( b[ 3 ], 1.0, 0.0, 0.0 );
+}`;
+// Both passes are compiled apart, so that v may differ in its last bits: what is next to an end is the end.
+const PASS2 = `
+fn nmt_three_transmittance(
+    v0: f32, alpha: f32, range: vec2<f32>, b0123: vec4<f32>, b4_n: vec4<f32>, ends: vec4<f32>
+) -> f32 {
+    let nearest = -ends.x;
+    let farthest = ends.y;
+    var v = clamp( v0, nearest, farthest );
+    if ( farthest - v < 1e-6 * v ) { v = farthest; }
+    if ( v - nearest < 1e-6 * v ) { v = nearest; }
+    return nmt_fragment_transmittance(
+        v, nmt_moment_depth( v, range.x, range.y ), nmt_absorbance( alpha ), nearest, farthest,
+        nmt_moment_depth( nearest, range.x, range.y ), nmt_moment_depth( farthest, range.x, range.y ),
+        b4_n.y, b0123.x, array<f32, 4>( b0123.y, b0123.z, b0123.w, b4_n.x )
+    );
+}`;
+const RESOLVE = `
+fn nmt_three_resolve( behind_color: vec4<f32>, sum: vec4<f32>, b0: f32 ) -> vec4<f32> {
+    let behind = exp( -b0 );
+    let scale = select( 0.0, ( 1.0 - behind ) / max( sum.a, 1e-37 ), sum.a > 0.0 );
+    return vec4<f32>( scale * sum.rgb + behind * behind_color.rgb, 1.0 - behind * ( 1.0 - behind_color.a ) );
+}`;
+
+function added(equation) {
+  const mode = new BlendMode(CustomBlending);
+  mode.blendSrc = OneFactor;
+  mode.blendDst = OneFactor;
+  if (equation !== undefined) mode.blendEquation = equation;
+  return mode;
+}
+
+/** A target that shaders read texel by texel. */
+function plain(texture, name, type, format) {
+  Object.assign(texture, { name, type, minFilter: NearestFilter, magFilter: NearestFilter, colorSpace: NoColorSpace });
+  if (format !== undefined) texture.format = format;
+}
+
+export class NMTPassNode extends PassNode {
+  static get type() {
+    return "NMTPassNode";
+  }
+
+  constructor(scene, camera, { network = "recommended", range = null, ...options } = {}) {
+    super(PassNode.COLOR, scene, camera, { ...options, samples: 0 });
+    this.isNMTPassNode = true;
+    this.range = range;
+    const source = typeof network === "string" ? networks[network] : network?.wgsl;
+    if (typeof source !== "string") {
+      const names = Object.keys(networks).join(", ");
+      throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
+    }
+    for (const name of ["nmt_absorbance", "nmt_moments", "nmt_moment_depth", "nmt_fragment_transmittance"]) {
+      if (!source.includes(`fn ${name}(`)) {
+        throw new Error(
+          `nmtPass: the network's WGSL has no function ${name}; export a recentred network of four moments.`,
+        );
+      }
+    }
+    this._source = wgsl(source);
+    this._range = uniform(new Vector2(1, 2));
+
+    // Both keep the depth of the opaque objects, which transparent ones are tested against.
+    this._sums = new RenderTarget(1, 1, { count: 3 });
+    this._sums.depthTexture = this.renderTarget.depthTexture;
+    plain(this._sums.textures[0], "b0123", FloatType);
+    plain(this._sums.textures[1], "b4_n", FloatType, RGFormat);
+    plain(this._sums.textures[2], "ends", FloatType, RGFormat);
+    this._weighted = new RenderTarget(1, 1, { count: 1 });
+    this._weighted.depthTexture = this.renderTarget.depthTexture;
+    plain(this._weighted.textures[0], "weighted", HalfFloatType);
+
+    // Whether both have not been drawn into since they got their size.
+    this._isNew = true;
+    this._renderer = null;
+    this._outputs = null;
+    const draws =
+      (here) =>
+      (object, scene_, camera_, geometry, material, ...rest) => {
+        if (isDrawnHere(material) !== here) return;
+        const { depthWrite } = material;
+        if (here) material.depthWrite = false;
+        this._renderer.renderObject(object, scene_, camera_, geometry, material, ...rest);
+        material.depthWrite = depthWrite;
+      };
+    this._drawOthers = draws(false);
+    this._drawTransparent = draws(true);
+  }
+
+  /** What both passes write. */
+  get _passes() {
+    if (this._outputs === null) {
+      const v = positionView.z.negate();
+      const alpha = output.a.clamp(0, 1);
+      const given = { v, alpha, range: this._range };
+      const includes = [this._source];
+      const sums = mrt({
+        b0123: wgslFn(PASS1, includes)(given),
+        b4_n: wgslFn(PASS1_LAST, includes)(given),
+        ends: vec4(v.negate(), v, 0, 0),
+      });
+      sums.setBlendMode("b0123", added()).setBlendMode("b4_n", added()).setBlendMode("ends", added(MaxEquation));
+      sums.setClearColor("b0123", new Color(0, 0, 0), 0).setClearColor("b4_n", new Color(0, 0, 0), 0);
+      sums.setClearColor("ends", new Color(NOTHING, NOTHING, 0), 0);
+      const at = ivec2(screenCoordinate.xy);
+      const [b0123, b4_n, ends] = this._sums.textures.map((t) => textureLoad(t, at));
+      const T = wgslFn(PASS2, includes)({ v0: v, alpha, range: this._range, b0123, b4_n, ends });
+      const share = alpha.mul(T);
+      const weighted = mrt({ weighted: vec4(output.rgb.mul(share), share) });
+      weighted.setBlendMode("weighted", added()).setClearColor("weighted", new Color(0, 0, 0), 0);
+      this._outputs = { sums, weighted };
+    }
+    return this._outputs;
+  }
+
+  setSize(width, height) {
+    super.setSize(width, height);
+    const { width: w, height: h } = this.renderTarget;
+    this._isNew ||= this._sums.width !== w || this._sums.height !== h;
+    this._sums.setSize(w, h);
+    this._weighted.setSize(w, h);
+  }
+
+  setup(builder) {
+    const why = whyUnsupported(builder.renderer);
+    if (why !== null) throw new Error(why);
+    const opaque = super.setup(builder);
+    const at = ivec2(screenCoordinate.xy);
+    const sum = textureLoad(this._weighted.textures[0], at);
+    const b0 = textureLoad(this._sums.textures[0], at).x;
+    return wgslFn(RESOLVE)({ behind_color: opaque, sum, b0 });
+  }
+
+  /** View depths that hold every transparent object. */
+  _findRange() {
+    const { camera } = this;
+    if (this.range !== null) return this._range.value.set(this.range[0], this.range[1]);
+    let [least, greatest] = [Infinity, 0];
+    const take = (object) => {
+      const materials = Array.isArray(object.material) ? object.material : [object.material];
+      if (!object.geometry || !materials.some((m) => m && isDrawnHere(m))) return;
+      if (object.boundingSphere !== undefined) {
+        if (object.boundingSphere === null) object.computeBoundingSphere();
+        sphere.copy(object.boundingSphere);
+      } else {
+        if (object.geometry.boundingSphere === null) object.geometry.computeBoundingSphere();
+        sphere.copy(object.geometry.boundingSphere);
+      }
+      sphere.applyMatrix4(object.matrixWorld).applyMatrix4(camera.matrixWorldInverse);
+      least = Math.min(least, -sphere.center.z - sphere.radius);
+      greatest = Math.max(greatest, -sphere.center.z + sphere.radius);
+    };
+    this.scene.traverseVisible(take);
+    const near = Math.max(camera.near, 1e-6);
+    least = Math.max(near, Number.isFinite(least) ? least : near);
+    return this._range.value.set(least, Math.max(least * 1.0001, Math.min(greatest, camera.far)));
+  }
+
+  updateBefore(frame) {
+    const { renderer } = frame;
+    const { scene, camera } = this;
+    this._renderer = renderer;
+    renderer.getDrawingBufferSize(size);
+    this.setSize(size.width, size.height);
+    rendererState = RendererUtils.saveRendererState(renderer, rendererState);
+    const { mask } = camera.layers;
+    this._cameraNear.value = camera.near;
+    this._cameraFar.value = camera.far;
+    if (this._layers !== null) camera.layers.mask = this._layers.mask;
+    renderer.autoClear = this.autoClear;
+    renderer.autoClearColor = this.autoClearColor;
+    renderer.autoClearDepth = this.autoClearDepth;
+    renderer.autoClearStencil = this.autoClearStencil;
+
+    // The renderer clears the depth of a target that it has not seen, which would be that of the opaque objects.
+    if (this._isNew) {
+      renderer.setMRT(null);
+      for (const target of [this._sums, this._weighted]) {
+        renderer.setRenderTarget(target);
+        renderer.render(nothing, camera);
+      }
+      this._isNew = false;
+    }
+
+    renderer.setMRT(this._mrt);
+    renderer.setRenderTarget(this.renderTarget);
+    renderer.setRenderObjectFunction(this._drawOthers);
+    renderer.render(scene, camera);
+    this._findRange();
+
+    // The background belongs to the pass before.
+    sceneState = RendererUtils.resetSceneState(scene, sceneState);
+    renderer.autoClear = true;
+    renderer.autoClearColor = true;
+    renderer.autoClearDepth = false;
+    renderer.opaque = false;
+    renderer.transparent = true;
+    renderer.setRenderObjectFunction(this._drawTransparent);
+    for (const [target, outputs] of [
+      [this._sums, this._passes.sums],
+      [this._weighted, this._passes.weighted],
+    ]) {
+      renderer.setRenderTarget(target);
+      renderer.setMRT(outputs);
+      renderer.render(scene, camera);
+    }
+    RendererUtils.restoreSceneState(scene, sceneState);
+    RendererUtils.restoreRendererState(renderer, rendererState);
+    camera.layers.mask = mask;
+    this._renderer = null;
+  }
+
+  dispose() {
+    super.dispose();
+    this._sums.dispose();
+    this._weighted.dispose();
+  }
+}
+
+/** The node of a pass that draws `scene` seen by `camera`, transparent objects in any order. */
+export const nmtPass = (scene, camera, options) => new NMTPassNode(scene, camera, options);

@@ -1,0 +1,138 @@
+// The methods of WebGL 2: what methods.js says of them, in GLSL ES 3.00. `ends` says that pass 2 looks at nearest and
+// farthest fragment.
+
+const COMMON = `
+float absorbance_of(float alpha) {
+    float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
+    return alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931));
+}
+float depth_of(float v) {
+    return clamp(2.0 * log(v / frame.range.x) / log(frame.range.y / frame.range.x) - 1.0, -1.0, 1.0);
+}
+`;
+
+const FIRST_IS_TOTAL = `
+float total(ivec2 at) {
+    return texelFetch(target0, at, 0).x;
+}
+`;
+
+function network(name) {
+  return {
+    functions: [`web/shaders/${name}.glsl`],
+    formats: ["rgba32f", "rg32f"],
+    half: ["rgba16f", "rg16f"],
+    ends: true,
+    common: "",
+    accumulate: `
+layout(location = 0) out vec4 out0;
+layout(location = 1) out vec4 out1;
+void accumulate(Surface s) {
+    float a = nmt_absorbance(s.alpha);
+    float b[4] = nmt_moments(nmt_moment_depth(s.v, frame.range.x, frame.range.y), a);
+    out0 = vec4(a, b[0], b[1], b[2]);
+    out1 = vec4(b[3], 1.0, 0.0, 0.0);
+}
+`,
+    weight: `
+float weight(Surface s, ivec2 at) {
+    vec4 b0123 = texelFetch(target0, at, 0);
+    vec2 b4_n = texelFetch(target1, at, 0).xy;
+    vec2 ends = ends_of(at);
+    return nmt_fragment_transmittance(
+        s.v, nmt_moment_depth(s.v, frame.range.x, frame.range.y), nmt_absorbance(s.alpha), ends.x, ends.y,
+        nmt_moment_depth(ends.x, frame.range.x, frame.range.y), nmt_moment_depth(ends.y, frame.range.x, frame.range.y),
+        b4_n.y, b0123.x, float[4](b0123.y, b0123.z, b0123.w, b4_n.x));
+}
+`,
+    total: FIRST_IS_TOTAL,
+  };
+}
+
+export const GL_METHODS = {
+  exact: {},
+  sorted: {},
+  "weighted-blended": {
+    functions: [],
+    formats: ["r32f"],
+    half: ["r16f"],
+    common: COMMON,
+    accumulate: `
+layout(location = 0) out vec4 out0;
+void accumulate(Surface s) {
+    out0 = vec4(absorbance_of(s.alpha), 0.0, 0.0, 0.0);
+}
+`,
+    // McGuire and Bavoil 2013, Eq. 9; twin of weight_mb13_9 in src/oit/weighted_blended.wgsl.
+    weight: `
+float weight(Surface s, ivec2 at) {
+    float near = s.v * 0.005;
+    return s.alpha * clamp(0.03 / (1e-5 + near * near * near * near), 1e-2, 3e3);
+}
+`,
+    total: FIRST_IS_TOTAL,
+  },
+  "moment-power-4": {
+    functions: ["web/glsl/moments.glsl"],
+    formats: ["rgba32f", "r32f"],
+    common: COMMON,
+    accumulate: `
+layout(location = 0) out vec4 out0;
+layout(location = 1) out vec4 out1;
+void accumulate(Surface s) {
+    float a = absorbance_of(s.alpha);
+    float z = depth_of(s.v);
+    out0 = a * vec4(1.0, z, z * z, z * z * z);
+    out1 = vec4(a * z * z * z * z, 0.0, 0.0, 0.0);
+}
+`,
+    weight: `
+float weight(Surface s, ivec2 at) {
+    vec4 b0123 = texelFetch(target0, at, 0);
+    vec4 b1234 = vec4(b0123.yzw, texelFetch(target1, at, 0).x);
+    return b0123.x == 0.0 ? 1.0 : power_transmittance_4(b0123.x, b1234, depth_of(s.v), 0.25);
+}
+`,
+    total: FIRST_IS_TOTAL,
+  },
+  wavelet: {
+    functions: ["web/glsl/wavelet.glsl"],
+    formats: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
+    half: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
+    common: COMMON,
+    accumulate: `
+layout(location = 0) out vec4 out0;
+layout(location = 1) out vec4 out1;
+layout(location = 2) out vec4 out2;
+layout(location = 3) out vec4 out3;
+void accumulate(Surface s) {
+    vec4 c[4];
+    wavelet_terms(depth_of(s.v), absorbance_of(s.alpha), c);
+    out0 = c[0];
+    out1 = c[1];
+    out2 = c[2];
+    out3 = c[3];
+}
+`,
+    weight: `
+float weight(Surface s, ivec2 at) {
+    float z = depth_of(s.v);
+    vec4 own[4];
+    wavelet_terms(z, absorbance_of(s.alpha), own);
+    vec4 others[4] = vec4[4](
+        texelFetch(target0, at, 0) - own[0], texelFetch(target1, at, 0) - own[1],
+        texelFetch(target2, at, 0) - own[2], texelFetch(target3, at, 0) - own[3]);
+    return wavelet_transmittance(others, z);
+}
+`,
+    total: `
+float total(ivec2 at) {
+    return max(wavelet_value(vec4[4](
+        texelFetch(target0, at, 0), texelFetch(target1, at, 0),
+        texelFetch(target2, at, 0), texelFetch(target3, at, 0)), 15), 0.0);
+}
+`,
+  },
+  small: network("small"),
+  recommended: network("recommended"),
+};

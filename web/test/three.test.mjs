@@ -1,0 +1,210 @@
+// The npm package: packed, installed in a fresh folder, and drawn by three.js beside its own OITPassNode.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { ROOT, SCRATCH, launch, open, serve } from "./browser.mjs";
+
+const WEB = path.join(ROOT, "web");
+const FRESH = path.join(SCRATCH, "fresh");
+let server;
+let browser;
+
+before(async () => {
+  fs.rmSync(FRESH, { recursive: true, force: true });
+  fs.mkdirSync(FRESH, { recursive: true });
+  const npm = (cwd, ...args) =>
+    execFileSync("npm", [...args, "--no-audit", "--no-fund", "--loglevel=error"], { cwd, encoding: "utf8" });
+  const [packed] = JSON.parse(npm(path.join(WEB, "npm"), "pack", "--json", "--pack-destination", FRESH));
+  const names = packed.files.map((f) => f.path);
+  for (const name of [
+    "index.js",
+    "index.d.ts",
+    "networks.js",
+    "README.md",
+    "shaders/recommended.wgsl",
+    "example/index.html",
+  ]) {
+    assert.ok(names.includes(name), `${name} is missing from the package: ${names}`);
+  }
+  fs.writeFileSync(path.join(FRESH, "package.json"), '{ "private": true, "type": "module" }');
+  npm(FRESH, "install", "--prefer-offline", path.join(FRESH, packed.filename), path.join(WEB, "node_modules", "three"));
+  for (const name of ["index.html", "peel.js"])
+    fs.copyFileSync(path.join(WEB, "test", "three", name), path.join(FRESH, name));
+  server = await serve(FRESH);
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+async function visit() {
+  const page = await open(browser, `${server.url}/`);
+  await page.waitForFunction(() => window.loaded);
+  return page;
+}
+
+/** Mean squared difference of the first three of four channels; anything that is no number fails. */
+const MSE = `(a, b) => {
+  if (a.length === 0 || a.length !== b.length) throw new Error("images of one size, please");
+  let sum = 0;
+  for (let i = 0; i < a.length; i++) {
+    if (i % 4 === 3) continue;
+    const d = a[i] - b[i];
+    if (!Number.isFinite(d)) throw new Error("a number that is none");
+    sum += (d * d) / (0.75 * a.length);
+  }
+  return sum;
+}`;
+
+// The second scene has more layers than have closed forms, so that the networks answer.
+for (const [title, dense, layers, factor] of [
+  ["three.js's own scene", false, 5, 100],
+  ["thirty balls", true, 12, 10],
+]) {
+  test(`${title}: nearer to peeled layers than OITPassNode, by far`, async () => {
+    const page = await visit();
+    const found = await page.evaluate(
+      async ([mseText, dense]) => {
+        const mse = eval(mseText);
+        const [width, height] = [200, 150];
+        const renderer = await open(width, height);
+        const { scene } = dense ? makeDenseScene() : makeScene();
+        const camera = makeCamera(width / height);
+        const images = {};
+        for (const [name, node] of Object.entries({
+          sorted: pass(scene, camera),
+          oit: oitPass(scene, camera),
+          small: nmtPass(scene, camera, { network: "small" }),
+          recommended: nmtPass(scene, camera),
+        }))
+          images[name] = await frame(renderer, node, width, height, 2);
+        const reference = await peel(renderer, scene, camera, width, height, 64);
+        const canvas = document.createElement("canvas");
+        Object.assign(canvas, { width: 2 * width, height: 2 * height });
+        const context = canvas.getContext("2d");
+        [reference.image, images.oit, images.recommended, images.sorted].forEach((image, k) => {
+          const bytes = Uint8ClampedArray.from(image, (x, i) => 255 * (i % 4 === 3 ? 1 : Math.max(0, x) ** (1 / 2.2)));
+          context.putImageData(new ImageData(bytes, width, height), (k % 2) * width, Math.floor(k / 2) * height);
+        });
+        return {
+          why: whyUnsupported(renderer),
+          layers: reference.layers,
+          errors: Object.fromEntries(
+            Object.entries(images).map(([name, image]) => [name, mse(image, reference.image)]),
+          ),
+          picture: canvas.toDataURL("image/png").split(",")[1],
+        };
+      },
+      [MSE, dense],
+    );
+    fs.writeFileSync(path.join(SCRATCH, `three-${dense ? "dense" : "own"}.png`), Buffer.from(found.picture, "base64"));
+    const { errors } = found;
+    console.log(
+      `${title}, ${found.layers} layers, image MSE against peeled layers: ` +
+        Object.entries(errors)
+          .map(([name, e]) => `${name} ${e.toExponential(2)}`)
+          .join(", "),
+    );
+    assert.equal(found.why, null);
+    assert.deepEqual(page.errors, []);
+    assert.ok(found.layers >= layers, `${found.layers} layers`);
+    for (const name of ["small", "recommended"]) {
+      assert.ok(errors[name] < errors.oit / factor && errors[name] < errors.sorted / 2, JSON.stringify(errors));
+    }
+    await page.close();
+  });
+}
+
+test("one layer, one colour, opaque depth, resizing, a transparent background, disposal", async () => {
+  const page = await visit();
+  const found = await page.evaluate(async (mseText) => {
+    const mse = eval(mseText);
+    const renderer = await open(64, 48, { alpha: true });
+    const camera = makeCamera(64 / 48);
+    const layer = (z, color, opacity) => {
+      const material = new THREE.MeshBasicMaterial({ color, opacity, transparent: true });
+      const mesh = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), material);
+      mesh.quaternion.copy(camera.quaternion);
+      mesh.position.copy(new THREE.Vector3(0, 0, z).applyMatrix4(camera.matrixWorld));
+      return mesh;
+    };
+    const draw = async (objects, background, width = 64, height = 48) => {
+      const scene = new THREE.Scene();
+      scene.background = background === null ? null : new THREE.Color().setRGB(...background);
+      scene.add(...objects);
+      if (background === null) renderer.setClearColor(0x000000, 0);
+      const node = nmtPass(scene, camera);
+      const image = await frame(renderer, node, width, height);
+      node.dispose();
+      return image;
+    };
+    const red = [1, 0, 0];
+    const out = {};
+    out.single = Array.from(await draw([layer(-5, 0xff0000, 0.3)], [0, 0, 1])).slice(0, 4);
+    const rgb = [-4, -6, -8, -9, -12, -15].map((z, i) => layer(z, 0xff0000, 0.15 + 0.1 * i));
+    out.oneColor = Array.from(await draw(rgb, [0, 0, 1])).slice(0, 4);
+    // Control: six layers of two colours are not that colour.
+    out.twoColors = Array.from(await draw([...rgb.slice(0, 3), layer(-5, 0x00ff00, 0.5)], [0, 0, 1])).slice(0, 4);
+    const wall = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), new THREE.MeshBasicMaterial({ color: 0xffffff }));
+    wall.quaternion.copy(camera.quaternion);
+    wall.position.copy(new THREE.Vector3(0, 0, -7).applyMatrix4(camera.matrixWorld));
+    out.hidden = Array.from(await draw([wall, layer(-5, 0xff0000, 0.3), layer(-10, 0x00ff00, 0.9)], [0, 0, 1])).slice(
+      0,
+      4,
+    );
+    out.clear = Array.from(await draw([layer(-5, 0xff0000, 0.3)], null)).slice(0, 4);
+    // A pass that is resized draws what one of that size draws.
+    const { scene } = makeScene();
+    const node = nmtPass(scene, camera);
+    await frame(renderer, node, 40, 30);
+    const resized = await frame(renderer, node, 64, 48);
+    out.resized = mse(resized, await frame(renderer, nmtPass(scene, camera), 64, 48));
+    out.size = [resized.length];
+    // Disposal gives back what was made.
+    const textures = () => renderer.info.memory.textures;
+    const before = textures();
+    for (let i = 0; i < 5; i++) {
+      const again = nmtPass(scene, camera);
+      await frame(renderer, again, 64, 48);
+      out.held = textures() - before;
+      again.dispose();
+    }
+    out.left = textures() - before;
+    let message = "";
+    try {
+      nmtPass(scene, camera, { network: "none" });
+    } catch (error) {
+      message = error.message;
+    }
+    out.unknown = message;
+    const webgl = await open(16, 16, { forceWebGL: true });
+    out.webgl = whyUnsupported(webgl);
+    return { ...out, red };
+  }, MSE);
+  assert.deepEqual(page.errors, []);
+  const near = (a, b, what) => b.forEach((x, i) => assert.ok(Math.abs(a[i] - x) < 2e-3, `${what}: ${a} is not ${b}`));
+  near(found.single, [0.3, 0, 0.7, 1], "one layer");
+  const behind = [0.15, 0.25, 0.35, 0.45, 0.55, 0.65].reduce((t, a) => t * (1 - a), 1);
+  near(found.oneColor, [1 - behind, 0, behind, 1], "one colour");
+  assert.throws(() => near(found.twoColors, [1 - 0.85 * 0.75 * 0.65 * 0.5, 0, 0.85 * 0.75 * 0.65 * 0.5, 1], "control"));
+  near(found.hidden, [1, 0.7, 0.7, 1], "before a wall");
+  near(found.clear, [0.3, 0, 0, 0.3], "before nothing");
+  assert.ok(found.resized < 1e-9 && found.size[0] === 4 * 64 * 48, `resized: ${found.resized}`);
+  assert.ok(found.held > 0 && found.left < found.held, `${found.left} of ${found.held} textures are left`);
+  assert.match(found.unknown, /no network "none"/);
+  assert.match(found.webgl, /needs WebGPU/);
+  await page.close();
+});
+
+test("the example runs", async () => {
+  const page = await open(browser, `${server.url}/node_modules/neural-moment-transparency/example/`);
+  await page.waitForFunction(() => document.querySelectorAll("button").length === 4);
+  await page.waitForTimeout(1500);
+  assert.deepEqual(page.errors, []);
+  await page.screenshot({ path: path.join(SCRATCH, "example.png") });
+  await page.close();
+});
