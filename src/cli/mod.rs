@@ -9,6 +9,7 @@ mod export;
 mod generate;
 mod import;
 mod interrupt;
+mod methods;
 mod predict;
 mod profile;
 mod report;
@@ -59,6 +60,8 @@ enum Command {
     Predict(predict::Predict),
     /// Compare transparency methods on scenes: errors, images, contact sheets.
     Evaluate(evaluate::Evaluate),
+    /// List transparency methods: memory, passes, needs and sources.
+    Methods(methods::Methods),
     /// Render a scene, or convert a deep image, to a fragment list.
     Scene(scene::Scene),
     /// Measure how fast training, generation, inference and transparency methods are.
@@ -121,6 +124,7 @@ pub fn main() -> ExitCode {
         Command::Check(c) => c.execute(&ui),
         Command::Predict(c) => c.execute(&ui),
         Command::Evaluate(c) => c.execute(&ui),
+        Command::Methods(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),

@@ -19,6 +19,7 @@ pub struct ABuffer;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Carpenter 1984; every fragment kept and sorted",
     names: |head| vec![head.to_owned()],
     build,
 };

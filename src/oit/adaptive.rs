@@ -48,6 +48,7 @@ pub struct Adaptive {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "adaptive:K[:2011|2014]",
+    source: "Salvi, Montgomery, Lefohn, HPG 2011; :2014 by Salvi, Vaidyanathan, I3D 2014",
     names,
     build,
 };

@@ -42,6 +42,7 @@ pub struct DeepWeightedBlended {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Papakostas, MSc thesis, Ioannina 2022",
     names: |head| vec![head.to_owned()],
     build,
 };

@@ -26,6 +26,7 @@ pub struct DepthPeeling {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "depth-peeling:K",
+    source: "Everitt, NVIDIA 2001",
     names,
     build,
 };

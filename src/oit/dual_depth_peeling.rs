@@ -28,6 +28,7 @@ pub struct DualDepthPeeling {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "dual-depth-peeling:K",
+    source: "Bavoil, Myers, NVIDIA 2008",
     names,
     build,
 };

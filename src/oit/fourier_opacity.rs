@@ -14,6 +14,7 @@ const MOST: usize = 32;
 pub const ENTRY: Entry = Entry {
     head: "fourier-opacity",
     pattern: "fourier-opacity:HARMONICS[+own]",
+    source: "Jansen, Bavoil, I3D 2010",
     names,
     build,
 };

@@ -30,6 +30,7 @@ pub struct Hybrid {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "hybrid:K",
+    source: "Maule, Comba, Torchelsen, Bastos, I3D 2013",
     names,
     build,
 };

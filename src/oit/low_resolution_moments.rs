@@ -14,6 +14,7 @@ use rayon::prelude::*;
 pub const ENTRY: Entry = Entry {
     head: "low-resolution-moments",
     pattern: "low-resolution-moments:2|4|8[+own]",
+    source: "Sharpe, HPG 2018",
     names,
     build,
 };

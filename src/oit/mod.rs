@@ -27,7 +27,7 @@ pub mod weighted_blended;
 pub mod weighted_sum;
 
 pub use capabilities::{Capabilities, Needs};
-pub use registry::{ParseError, all_names, parse};
+pub use registry::{ParseError, all_names, parse, source};
 
 use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};

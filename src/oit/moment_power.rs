@@ -14,18 +14,21 @@ pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-power-4",
         pattern: "moment-power-4[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-4:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<2, 5>,
     },
     Entry {
         head: "moment-power-6",
         pattern: "moment-power-6[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-6:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<3, 7>,
     },
     Entry {
         head: "moment-power-8",
         pattern: "moment-power-8[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-8:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<4, 9>,
     },

@@ -12,6 +12,7 @@ use crate::pixel::MomentDepth;
 pub const ENTRY: Entry = Entry {
     head: "moment-transparency",
     pattern: "moment-transparency[:OVERESTIMATION][+own]",
+    source: "Sharpe, HPG 2018",
     names,
     build,
 };

@@ -16,18 +16,21 @@ pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-trig-2",
         pattern: "moment-trig-2[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<2>,
     },
     Entry {
         head: "moment-trig-3",
         pattern: "moment-trig-3[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<3>,
     },
     Entry {
         head: "moment-trig-4",
         pattern: "moment-trig-4[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<4>,
     },

@@ -28,6 +28,7 @@ pub struct MultiLayerAlpha {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "multi-layer-alpha:K",
+    source: "Salvi, Vaidyanathan, I3D 2014",
     names,
     build,
 };

@@ -69,6 +69,7 @@ pub struct Answered {
 pub const ENTRY: Entry = Entry {
     head: "neural",
     pattern: "neural:MODEL",
+    source: "Tsopouridis, Vasilakis, Fudos, Eurographics 2024 (`paper`); the others are ours",
     names: |_| Vec::new(),
     build,
 };

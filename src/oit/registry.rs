@@ -121,6 +121,8 @@ pub struct Entry {
     pub head: &'static str,
     /// The whole name with its options, for messages.
     pub pattern: &'static str,
+    /// Who published it.
+    pub source: &'static str,
     /// Names for `all`, from the head.
     pub names: fn(&str) -> Vec<String>,
     /// Makes the method.
@@ -214,6 +216,12 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
             known: entries().map(|e| e.pattern).collect::<Vec<_>>().join(", "),
         }),
     }
+}
+
+/// Who published the method of a name; none of a name that no method has.
+pub fn source(name: &str) -> Option<&'static str> {
+    let head = name.split(['+', ':']).next().unwrap_or_default();
+    entries().find(|e| e.head == head).map(|e| e.source)
 }
 
 /// The names that stand for all methods, every one of which [`parse`] takes.

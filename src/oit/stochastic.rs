@@ -37,6 +37,7 @@ const MAX_SAMPLES: usize = 1 << 12;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "stochastic:SAMPLES",
+    source: "Enderton, Sintorn, Shirley, Luebke, IEEE TVCG 17(8) 2011",
     names,
     build,
 };

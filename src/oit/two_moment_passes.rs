@@ -13,6 +13,7 @@ use crate::pixel::MomentDepth;
 pub const ENTRY: Entry = Entry {
     head: "two-moment-passes",
     pattern: "two-moment-passes[+own]",
+    source: "Sharpe, HPG 2018",
     names: |head| vec![head.to_owned(), format!("{head}+own")],
     build,
 };

@@ -19,6 +19,7 @@ const MAX_RANK: usize = 5;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "wavelet:RANK[:f16|f32][+own]",
+    source: "Aizenshtein, Smal, McGuire, arXiv 2201.00094, 2022; +own is ours",
     names,
     build,
 };

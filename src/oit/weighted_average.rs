@@ -21,6 +21,7 @@ pub struct WeightedAverage;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Bavoil, Myers, NVIDIA 2008",
     names: |head| vec![head.to_owned()],
     build,
 };

@@ -125,6 +125,7 @@ pub struct WeightedBlended {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "weighted-blended[:WEIGHT][:best-scale]",
+    source: "McGuire, Bavoil, JCGT 2(2) 2013; Papakostas, MSc thesis, Ioannina 2022",
     names,
     build,
 };

@@ -21,6 +21,7 @@ pub struct WeightedSum;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Meshkin, GDC 2007",
     names: |head| vec![head.to_owned()],
     build,
 };
