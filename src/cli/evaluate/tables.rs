@@ -279,7 +279,7 @@ mod tests {
     fn scene(name: &str, alpha: f32) -> SceneResults {
         let list = FragmentList::new(
             vec![0, 3],
-            vec![2.0, 1.0, 3.0],
+            vec![3.0, 1.0, 2.0],
             vec![alpha; 3],
             Some(vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
         )
