@@ -4,7 +4,7 @@ use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::Layered;
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
-use crate::pixel::{FragmentList, Pixel, absorbance};
+use crate::pixel::{FragmentList, Pixel, absorbance, abuffer};
 
 /// The stem of its name on the command line, `adaptive:K` or `adaptive:K:RULE`.
 pub const NAME: &str = "adaptive";
@@ -18,8 +18,8 @@ pub enum Removal {
     /// Salvi, Montgomery, Lefohn, HPG 2011, Sec. 3.2.
     #[default]
     LeastArea,
-    /// The farthest node; what [`super::multi_layer_alpha`] does with colours. It needs no search, and shaders of the method written since 2014
-    /// merge their last two nodes so.
+    /// The farthest node; what [`super::multi_layer_alpha`] does with colours. It needs no search, shaders of the method written since 2014 merge
+    /// their last two nodes so, and of a function without colours the same nodes are left in whatever order fragments arrive.
     ///
     /// # Source
     /// Salvi, Vaidyanathan, I3D 2014, Sec. 3.
@@ -89,21 +89,42 @@ impl Method for Adaptive {
             colour_bits_per_pixel: COLOUR_BITS,
             geometry_passes: 2,
             needs: Needs::INTERLOCK,
-            order_dependent: true,
+            order_dependent: self.removal == Removal::LeastArea,
         }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        Ok(Box::new(Layered::of(
-            list,
-            |function: &mut StepFunction, pixel, out| {
-                function.of_pixel(self.nodes, self.removal, pixel);
+        Ok(Box::new(match self.removal {
+            Removal::LeastArea => Layered::of(list, |function: &mut StepFunction, pixel, out| {
+                function.of_pixel(self.nodes, pixel);
                 for (i, (out, &view_z)) in out.iter_mut().zip(pixel.view_z).enumerate() {
                     *out = function.in_front_of(view_z, i);
                 }
                 function.total()
-            },
-        )))
+            }),
+            Removal::Farthest => Layered::of(list, |order: &mut Vec<u32>, pixel, out| {
+                self.farthest_removed(order, pixel, out)
+            }),
+        }))
+    }
+}
+
+impl Adaptive {
+    /// The function whose farthest node always goes: the K nearest fragments have nodes, the last of which takes every step behind it. Whatever the
+    /// order of insertion, the same nodes are left.
+    fn farthest_removed(&self, order: &mut Vec<u32>, pixel: Pixel<'_>, out: &mut [f64]) -> f64 {
+        abuffer::front_to_back(pixel, order);
+        let total = libm::exp(-abuffer::total_absorbance(pixel));
+        let mut in_front = 0.0;
+        for (place, &i) in order.iter().enumerate() {
+            out[i as usize] = if place < self.nodes {
+                libm::exp(-in_front)
+            } else {
+                total
+            };
+            in_front += absorbance(pixel.alpha[i as usize]);
+        }
+        total
     }
 }
 
@@ -123,12 +144,12 @@ struct StepFunction {
 }
 
 impl StepFunction {
-    fn of_pixel(&mut self, k: usize, removal: Removal, pixel: Pixel<'_>) {
+    fn of_pixel(&mut self, k: usize, pixel: Pixel<'_>) {
         self.nodes.clear();
         for (index, (&view_z, &alpha)) in pixel.view_z.iter().zip(pixel.alpha).enumerate() {
             self.insert(index, view_z, libm::exp(-absorbance(alpha)));
             if self.nodes.len() > k {
-                self.remove_one(removal);
+                self.remove_one();
             }
         }
     }
@@ -149,18 +170,13 @@ impl StepFunction {
         );
     }
 
-    /// Removes a node; of several that take the least area away the first.
-    fn remove_one(&mut self, removal: Removal) {
+    /// Removes the node whose removal takes the least area away; the first of several.
+    fn remove_one(&mut self) {
         let area = |pair: &[Node]| {
             (pair[0].transmittance - pair[1].transmittance) * (f64::from(pair[1].view_z) - f64::from(pair[0].view_z))
         };
         let areas = self.nodes.windows(2).map(area).enumerate();
-        let least = areas.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(before, _)| before);
-        let before = match removal {
-            Removal::LeastArea => least,
-            Removal::Farthest => self.nodes.len().checked_sub(2),
-        };
-        if let Some(before) = before {
+        if let Some((before, _)) = areas.min_by(|a, b| a.1.total_cmp(&b.1)) {
             self.nodes[before].transmittance = self.nodes[before + 1].transmittance;
             self.nodes.remove(before + 1);
         }
@@ -191,7 +207,6 @@ mod tests {
     use super::*;
     use crate::oit::parse;
     use crate::oit::testing::*;
-    use crate::pixel::abuffer;
     use proptest::prelude::*;
 
     fn of_2011(nodes: usize) -> Adaptive {
@@ -211,6 +226,10 @@ mod tests {
         };
         assert_close(&weights(&of_2014, &far), &[0.125, 1.0, 0.5]);
         assert_close(&weights(&of_2011(2), &far), &[0.25, 1.0, 0.25]);
+        // One node at 1 takes all steps: what lies behind sees the total.
+        let of_2014 = Adaptive { nodes: 1, ..of_2014 };
+        assert_close(&weights(&of_2014, &far), &[0.125, 1.0, 0.125]);
+        assert!(!of_2014.capabilities().order_dependent && !order_matters(&of_2014, &untied(2)));
     }
 
     #[test]
@@ -260,7 +279,7 @@ mod tests {
             let nearest = view_z.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).unwrap().0;
             prop_assert_eq!(ours[nearest], 1.0);
             let mut function = StepFunction::default();
-            function.of_pixel(nodes, Removal::LeastArea, list.pixel(0));
+            function.of_pixel(nodes, list.pixel(0));
             prop_assert!(function.nodes.len() <= nodes);
             prop_assert!((function.total() - (-abuffer::total_absorbance(list.pixel(0))).exp()).abs() < 1e-12);
         }

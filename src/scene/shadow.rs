@@ -12,7 +12,7 @@ use rayon::prelude::*;
 const PURPOSE: u64 = 0x5ad0;
 
 /// Share of a receiver's depth by which a fragment must lie in front of it to shade it, so that a surface does not shade itself.
-pub const DEPTH_BIAS: f64 = 1e-3;
+pub const DEPTH_BIAS: f64 = 5e-3;
 
 /// A point that light should reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
