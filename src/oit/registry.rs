@@ -247,7 +247,13 @@ mod tests {
             let method = parse(name).unwrap();
             assert_eq!(&method.name(), name);
             let capabilities = method.capabilities();
-            assert!(capabilities.bits_per_pixel.is_none_or(|bits| bits >= 16) && capabilities.geometry_passes >= 1);
+            let bits = capabilities
+                .bits_per_pixel
+                .map(|bits| bits + capabilities.colour_bits_per_pixel);
+            assert!(
+                bits.is_none_or(|bits| bits >= 64) && capabilities.geometry_passes >= 1,
+                "{name}"
+            );
         }
     }
 
