@@ -194,13 +194,16 @@ pub(super) fn tinted_rows(results: &[Row]) -> String {
     format!("{heading}{}", table(&lines))
 }
 
+/// Mean square of an error that nobody sees, a sixteenth of a step of an 8-bit display: what a geometric mean takes for exact.
+const INVISIBLE: f64 = (1.0 / (16.0 * 255.0)) * (1.0 / (16.0 * 255.0));
+
 /// A method over all scenes.
 pub(super) struct Compared<'a> {
     pub method: &'a str,
     pub capabilities: Capabilities,
     /// Image MSE of each scene, in their order; none where the scene makes no image.
     pub errors: Vec<Option<f64>>,
-    /// Geometric mean of the image MSE over the scenes; none unless every scene has one that is a number above 0.
+    /// Geometric mean of the image MSE over the scenes, errors below [`INVISIBLE`] counted as that; none unless every scene has one that is a number.
     pub mean: Option<f64>,
 }
 
@@ -223,7 +226,10 @@ pub(super) fn compare(scenes: &[SceneResults]) -> Vec<Compared<'_>> {
         .iter()
         .filter_map(|row| {
             let errors = of(row)?;
-            let logs: Option<Vec<f64>> = errors.iter().map(|e| e.filter(|e| *e > 0.0).map(f64::ln)).collect();
+            let logs: Option<Vec<f64>> = errors
+                .iter()
+                .map(|e| e.map(|e| e.max(INVISIBLE).ln() + 0.0 * e))
+                .collect();
             let mean = logs.map(|logs| (logs.iter().sum::<f64>() / logs.len() as f64).exp());
             Some(Compared {
                 method: &row.cpu.method,
@@ -266,6 +272,7 @@ pub(super) fn comparison(scenes: &[SceneResults]) -> String {
         );
     }
     text + "\nImage MSE ×1e-4, lower is better. Bits a pixel: sums, ranges, layers and cores; the colour accumulator stands apart. \
+        In the geometric mean an error that nobody sees, below a sixteenth of an 8-bit step, counts as that. \
         † depends on the order of the fragments: means over random orders of fragments and of whole objects.\n"
 }
 
@@ -325,20 +332,24 @@ mod tests {
         assert!(text.contains("multi-layer-alpha:1†") && text.contains("unbounded") && text.contains("interlock"));
     }
 
-    /// The geometric mean by hand; what is exact somewhere has none, and stands last.
+    /// The geometric mean by hand; what is exact has that of an error that nobody sees, and stands first; NaN has none, and stands last.
     #[test]
     fn means_are_geometric() {
-        let scenes = [scene("a", 0.5), scene("b", 0.25)];
+        let mut scenes = [scene("a", 0.5), scene("b", 0.25)];
         let compared = compare(&scenes);
         let blended = compared.iter().find(|c| c.method == "weighted-blended:dwb22").unwrap();
         let expected = (blended.errors[0].unwrap() * blended.errors[1].unwrap()).sqrt();
         assert!((blended.mean.unwrap() / expected - 1.0).abs() < 1e-12);
-        assert!(compared.last().unwrap().method == "abuffer" && compared.last().unwrap().mean.is_none());
+        let exact = compared.first().unwrap();
+        assert!(exact.method == "abuffer" && (exact.mean.unwrap() / INVISIBLE - 1.0).abs() < 1e-9);
         let text = comparison(&scenes);
         assert!(
             text.starts_with("| method | bits/pixel | colour | passes | needs | a | b | geometric mean |"),
             "{text}"
         );
         assert_eq!(text.lines().filter(|l| l.starts_with("| `")).count(), 4);
+        scenes[1].rows[0].cpu.image_mse = Some(f64::NAN);
+        let compared = compare(&scenes);
+        assert!(compared.last().unwrap().method == "abuffer" && compared.last().unwrap().mean.is_none());
     }
 }
