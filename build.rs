@@ -1,4 +1,4 @@
-//! Tells the program which revision it was built from, for the provenance of what it trains.
+//! Tells the program which revision it was built from, for `nmt --version` and the provenance of what it trains.
 
 use std::process::Command;
 
@@ -12,6 +12,7 @@ fn git(arguments: &[&str]) -> Option<String> {
 }
 
 fn main() {
+    let mut version = std::env::var("CARGO_PKG_VERSION").expect("cargo sets it");
     println!("cargo:rerun-if-changed=src");
     println!("cargo:rerun-if-changed=Cargo.toml");
     // Only where this package is the repository, and not a dependency unpacked inside another one.
@@ -30,9 +31,9 @@ fn main() {
             .args(["diff", "--quiet", "HEAD", "--", "src", "Cargo.toml"])
             .status()
             .is_ok_and(|s| s.success());
-        println!(
-            "cargo:rustc-env=NMT_COMMIT={revision}{}",
-            if clean { "" } else { "-modified" }
-        );
+        let commit = format!("{revision}{}", if clean { "" } else { "-modified" });
+        println!("cargo:rustc-env=NMT_COMMIT={commit}");
+        version += &format!(" ({commit})");
     }
+    println!("cargo:rustc-env=NMT_VERSION={version}");
 }

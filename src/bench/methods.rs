@@ -15,7 +15,8 @@ use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// The GPU's passes without a method: every weight is 1, once a fragment and its pixel's total are there. What it costs, nearly every method costs.
+/// The GPU's passes without a method: every weight is 1, once a fragment and its pixel's total are there. What it
+/// costs, nearly every method costs.
 pub const NONE: &str = "none";
 
 /// Why costs could not be measured.
@@ -112,7 +113,8 @@ pub struct Cost {
     pub both: Vec<f64>,
     /// Seconds of either pass likewise; none where they are not apart, as in networks on the CPU.
     pub passes: Option<Passed>,
-    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see [`Table::front_is_of`].
+    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see
+    /// [`Table::front_is_of`].
     pub on_front: bool,
 }
 
@@ -212,7 +214,8 @@ impl Table {
     }
 }
 
-/// Which points (time, error) no other one dominates: none is at most as great in both and less in one. What has no error, or NaN, is on no front.
+/// Which points (time, error) no other one dominates: none is at most as great in both and less in one. What has no
+/// error, or NaN, is on no front.
 pub fn front(points: &[Option<(f64, f64)>]) -> Vec<bool> {
     let usable = |p: &Option<(f64, f64)>| p.filter(|(t, e)| !t.is_nan() && !e.is_nan());
     let dominates = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
@@ -287,7 +290,8 @@ impl Setting<'_> {
         })
     }
 
-    /// What methods cost on this machine's CPU, named `adapter`: classic ones as the f64 reference that they are here, networks with f32 SIMD.
+    /// What methods cost on this machine's CPU, named `adapter`: classic ones as the f64 reference that they are here,
+    /// networks with f32 SIMD.
     ///
     /// A method that cannot be applied to the list is left out, with the reason.
     ///
@@ -357,8 +361,8 @@ impl Setting<'_> {
         .finish())
     }
 
-    /// What methods cost on a GPU in compute passes over the list: pass 1 a thread a pixel, pass 2 a thread a fragment. Errors are those of the GPU's own weights.
-    /// Pipelines are made, and run once, outside of what is timed.
+    /// What methods cost on a GPU in compute passes over the list: pass 1 a thread a pixel, pass 2 a thread a fragment.
+    /// Errors are those of the GPU's own weights. Pipelines are made, and run once, outside of what is timed.
     ///
     /// A method that has no twin, or cannot be applied to the list, is left out, with the reason.
     ///
@@ -675,7 +679,8 @@ mod tests {
         all
     }
 
-    /// Every row has as many samples as there are repetitions, rows come fastest first, and errors are those of the evaluation.
+    /// Every row has as many samples as there are repetitions, rows come fastest first, and errors are those of the
+    /// evaluation.
     #[test]
     fn cpu_rows_are_complete() {
         let list = list();

@@ -7,13 +7,12 @@ pub mod infer;
 pub mod methods;
 pub mod network;
 pub mod peak;
-pub mod scatter;
 pub mod summary;
 pub mod tiles;
 pub mod train;
 
 pub use network::Network;
-pub use summary::Summary;
+pub use summary::{Summary, comparison};
 
 use crate::dataset::DatasetError;
 use crate::model::ShapeError;

@@ -56,6 +56,35 @@ impl Summary {
     }
 }
 
+/// How many times as long each other subject took as the fastest, from the ratios within each repetition: the closing sentence of a
+/// comparison, in the form that hyperfine gives it. Empty where nothing is compared.
+pub fn comparison(seconds: &[(&str, &[f64])]) -> String {
+    let medians: Vec<f64> = seconds.iter().map(|(_, s)| Summary::of(s).median).collect();
+    let Some(fastest) = (0..medians.len()).min_by(|&a, &b| medians[a].total_cmp(&medians[b])) else {
+        return String::new();
+    };
+    let mut others: Vec<usize> = (0..medians.len()).filter(|&i| i != fastest).collect();
+    others.sort_by(|&a, &b| medians[a].total_cmp(&medians[b]));
+    let of = |&other: &usize| {
+        let ratios: Vec<f64> = seconds[other]
+            .1
+            .iter()
+            .zip(seconds[fastest].1)
+            .map(|(o, f)| o / f)
+            .collect();
+        let Summary { median, mad, .. } = Summary::of(&ratios);
+        format!("{median:.2} ± {mad:.2} times faster than {}", seconds[other].0)
+    };
+    match others.as_slice() {
+        [] => String::new(),
+        [one] => format!("{} ran {}\n", seconds[fastest].0, of(one)),
+        more => {
+            let lines: Vec<String> = more.iter().map(|i| format!("  {}\n", of(i))).collect();
+            format!("{} ran\n{}", seconds[fastest].0, lines.concat())
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,6 +125,26 @@ mod tests {
         // Control: the middle of unsorted samples, and a mean, are no median.
         assert_ne!(summary.median, [5.0, 1.0, 4.0, 2.0, 99.0][3]);
         assert_ne!(summary.median, [5.0, 1.0, 4.0, 2.0, 100.0].iter().sum::<f64>() / 5.0);
+    }
+
+    /// By hand: ratios of the same repetition, not of the medians.
+    #[test]
+    fn comparisons_take_ratios_within_repetitions() {
+        let (fast, slow, slower) = ([1.0, 2.0, 4.0], [3.0, 8.0, 16.0], [10.0, 20.0, 41.0]);
+        assert_eq!(
+            comparison(&[("flex", &slow), ("fused", &fast)]),
+            "fused ran 4.00 ± 0.00 times faster than flex\n"
+        );
+        let three = comparison(&[("ndarray", &slower), ("flex", &slow), ("fused", &fast)]);
+        assert_eq!(
+            three,
+            "fused ran\n  4.00 ± 0.00 times faster than flex\n  10.00 ± 0.00 times faster than ndarray\n"
+        );
+        // Control: a subject alone is compared with nothing.
+        assert_eq!(
+            (comparison(&[("fused", &fast)]), comparison(&[])),
+            (String::new(), String::new())
+        );
     }
 
     /// An outlier moves neither the median nor the MAD of many. Control: it moves the greatest.

@@ -5,14 +5,12 @@ use super::export::FormatArguments;
 use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
 use crate::export::Format;
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, shipped};
+use crate::numeric::require;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-
-/// Environment variable that makes tools a condition, as `--require` does.
-const REQUIRE_VARIABLE: &str = "NMT_REQUIRE";
 
 #[derive(Args)]
 pub struct Check {
@@ -31,35 +29,37 @@ pub struct Check {
 #[derive(Args, Clone)]
 pub struct CheckArguments {
     /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the same.
-    #[arg(long, value_delimiter = ',', value_name = "TOOLS")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "TOOLS")]
     require: Vec<String>,
 }
 
 impl CheckArguments {
     /// Tools that are required here or by the environment.
     fn required(&self) -> anyhow::Result<Vec<String>> {
-        let variable = std::env::var(REQUIRE_VARIABLE).unwrap_or_default();
-        let tools: Vec<String> = self
-            .require
+        let known = |tools: &[&str], source: &str, names: &[String]| match names
             .iter()
-            .map(String::as_str)
-            .chain(variable.split(','))
-            .map(|t| t.trim().to_owned())
-            .filter(|t| !t.is_empty())
-            .collect();
-        if let Some(unknown) = tools.iter().find(|t| !OPTIONAL_TOOLS.contains(&t.as_str())) {
-            bail!(
-                "--require or {REQUIRE_VARIABLE} names '{unknown}'; known are {}",
-                OPTIONAL_TOOLS.join(", ")
-            );
-        }
+            .find(|name| !tools.contains(&name.as_str()))
+        {
+            Some(unknown) => bail!("{source} names '{unknown}'; known are {}", tools.join(", ")),
+            None => Ok(()),
+        };
+        let mut tools: Vec<String> = self.require.iter().flat_map(|list| require::names(list)).collect();
+        known(&OPTIONAL_TOOLS, "--require", &tools)?;
+        let variable = require::required();
+        known(&require::TOOLS, require::VARIABLE, &variable)?;
+        // The others are tools of the tests.
+        tools.extend(
+            variable
+                .into_iter()
+                .filter(|name| OPTIONAL_TOOLS.contains(&name.as_str())),
+        );
         Ok(tools)
     }
 }
 
 impl Check {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let mlp = file::load(&self.model)?;
+        let mlp = shipped::open(&self.model)?;
         let findings = findings(&mlp, &self.exports, &self.formats.formats()?, &self.options, ui)?;
         if ui.json() {
             ui.print_json("check", findings.iter().map(to_json).collect())?;

@@ -12,15 +12,21 @@ use toml::{Table, Value};
 
 /// What a configuration file says: all that decides a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Config {
     /// Name of the network and of its files.
     pub name: String,
     /// Seed of everything random.
     pub seed: u64,
+    /// Random pixels.
     pub synth: SynthConfig,
+    /// The rows that are made of them.
     pub dataset: DatasetConfig,
+    /// How the network is trained.
     pub train: TrainConfig,
+    /// How its error is measured in the end.
+    #[serde(default)]
     pub evaluate: EvaluateConfig,
 }
 
@@ -49,10 +55,17 @@ fn merge(base: &mut Table, changes: Table) {
 
 /// How the final error is measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct EvaluateConfig {
     /// Fragments, at least, of fresh pixels.
     pub pairs: u64,
+}
+
+impl Default for EvaluateConfig {
+    fn default() -> Self {
+        Self { pairs: 500_000 }
+    }
 }
 
 impl Config {

@@ -1,5 +1,6 @@
 //! `nmt evaluate`
 
+mod chart;
 mod frames;
 mod methods;
 mod shadows;
@@ -30,14 +31,16 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Evaluate {
-    /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes; "built-in" stands for all of those.
-    #[arg(long, value_name = "F.npz|SCENE", required = true, num_args = 1..)]
+    /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes; "built-in"
+    /// stands for all of those.
+    #[arg(long, value_name = "F.npz|SCENE", required = true, value_delimiter = ',', num_args = 1..)]
     fragments: Vec<String>,
-    /// Methods, by name; "all" stands for every classic one, and without the option there are those that tell the story.
-    #[arg(long, value_delimiter = ',')]
+    /// Methods, by name; "all" stands for every classic one, and without the option there are those that tell the
+    /// story.
+    #[arg(long, value_delimiter = ',', num_args = 1..)]
     methods: Vec<String>,
     /// Networks to evaluate beside them.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Which fragments to run those networks for.
     #[arg(long, value_enum, default_value = "exact")]
@@ -46,11 +49,12 @@ pub struct Evaluate {
     /// has found.
     #[arg(long, requires = "model")]
     prepass: bool,
-    /// Random orders of fragments, and as many of whole objects where the scene is rendered here, for methods that depend on the order; errors are
-    /// means over them. 0 takes fragments as they stand in the list.
+    /// Random orders of fragments, and as many of whole objects where the scene is rendered here, for methods that
+    /// depend on the order; errors are means over them. 0 takes fragments as they stand in the list.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(0..=100))]
     orders: u64,
-    /// Evaluate them also on glass that is tinted in its own colour by this strength, from 0 to 1: with one transmittance, and with one a channel.
+    /// Evaluate them also on glass that is tinted in its own colour by this strength, from 0 to 1: with one
+    /// transmittance, and with one a channel.
     #[arg(long, value_name = "S")]
     tint: Option<f64>,
     /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
@@ -270,7 +274,8 @@ impl Session<'_> {
         }
     }
 
-    /// One result a method, in their order: on the list as it stands, and of those that depend on the order in random ones.
+    /// One result a method, in their order: on the list as it stands, and of those that depend on the order in random
+    /// ones.
     fn judge(&self, scene: &str, name: &str, truth: &Truth<'_>) -> anyhow::Result<Vec<Result<Judged, EvaluateError>>> {
         let in_orders = |method: &dyn Method| self.options.orders > 0 && method.capabilities().order_dependent;
         let progress = self.ui.progress("evaluate", self.methods.len() as u64);
@@ -384,6 +389,9 @@ impl Session<'_> {
         if scenes.len() > 1 {
             comparison = tables::comparison(scenes);
             write("comparison.md", &comparison)?;
+            if let Some(chart) = chart::chart(scenes) {
+                write("comparison.svg", &chart)?;
+            }
         }
         if self.ui.json() {
             return self.ui.print(&json);

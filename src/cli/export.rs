@@ -5,7 +5,7 @@ use super::ui::Ui;
 use crate::check::rows;
 use crate::export::shader::Precision;
 use crate::export::{self, Format};
-use crate::model::{Mlp, file, simplify};
+use crate::model::{Mlp, shipped, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
@@ -37,7 +37,7 @@ const PRUNE_SEED: u64 = 0x0070_7275_6e65;
 #[derive(Args)]
 pub struct FormatArguments {
     /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars. Without it: all but the plain ones.
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_enum, value_delimiter = ',', num_args = 1..)]
     format: Vec<FormatName>,
     /// What weights and activations of the hidden layers are kept in. f16 is offered for wgsl, hlsl, metal and spirv.
     #[arg(long, value_enum, default_value = "f32")]
@@ -120,7 +120,7 @@ fn hidden(mlp: &Mlp) -> usize {
 
 impl Export {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let whole = file::load(&self.model)?;
+        let whole = shipped::open(&self.model)?;
         let mlp = match self.prune {
             None => whole.clone(),
             Some(0) => bail!("--prune=0: no row says that no unit fires; take 1000000"),

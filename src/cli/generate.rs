@@ -24,7 +24,7 @@ pub struct Generate {
     #[arg(long, value_name = "F.npz")]
     fragments: Option<PathBuf>,
     /// Take the pixels of these scenes (as `nmt evaluate` names them) instead of random ones.
-    #[arg(long, value_name = "F.npz|SCENE", num_args = 1.., conflicts_with = "fragments")]
+    #[arg(long, value_name = "F.npz|SCENE", value_delimiter = ',', num_args = 1.., conflicts_with = "fragments")]
     from: Vec<String>,
     #[command(flatten)]
     options: SceneOptions,

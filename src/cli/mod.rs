@@ -1,10 +1,10 @@
 //! The command line: the only place that parses arguments, shows progress and prints.
 
 mod bench;
-mod bench_tiles;
 mod check;
 mod config;
 mod evaluate;
+mod examples;
 mod export;
 mod generate;
 mod import;
@@ -15,6 +15,9 @@ mod profile;
 mod report;
 mod run;
 mod scene;
+#[cfg(test)]
+mod schema;
+mod shell;
 mod stress;
 mod train;
 mod ui;
@@ -23,9 +26,12 @@ use clap::{Args, Parser, Subcommand};
 use std::process::ExitCode;
 use ui::Ui;
 
+/// The version, with the revision that the program was built from where that is known.
+const VERSION: &str = env!("NMT_VERSION");
+
 /// Train, export and check tiny networks for order-independent transparency.
 #[derive(Parser)]
-#[command(name = "nmt", version, max_term_width = 100)]
+#[command(name = "nmt", version = VERSION, max_term_width = 100, after_help = examples::ALL)]
 struct Cli {
     #[command(flatten)]
     global: Global,
@@ -47,33 +53,55 @@ struct Global {
 #[derive(Subcommand)]
 enum Command {
     /// The main job: generate, train, evaluate, export and check in one go.
+    #[command(after_help = examples::RUN)]
     Run(run::Run),
     /// Generate a dataset of random pixels: features, targets, manifest.
+    #[command(after_help = examples::GENERATE)]
     Generate(generate::Generate),
     /// Train a network.
+    #[command(after_help = examples::TRAIN)]
     Train(train::Train),
     /// Export a network as WGSL, GLSL, HLSL, MSL, SPIR-V, JSON and ONNX.
+    #[command(after_help = examples::EXPORT)]
     Export(export::Export),
     /// Check exports against the network.
+    #[command(after_help = examples::CHECK)]
     Check(check::Check),
-    /// Answer the fragments of a file: transmittance of each.
+    /// Predict the transmittance of every fragment of a file.
+    #[command(after_help = examples::PREDICT)]
     Predict(predict::Predict),
     /// Compare transparency methods on scenes: errors, images, contact sheets.
+    #[command(after_help = examples::EVALUATE)]
     Evaluate(evaluate::Evaluate),
     /// List transparency methods: memory, passes, needs and sources.
     Methods(methods::Methods),
     /// Render a scene, or convert a deep image, to a fragment list.
+    #[command(after_help = examples::SCENE)]
     Scene(scene::Scene),
     /// Measure how fast training, generation, inference and transparency methods are.
+    #[command(after_help = examples::BENCH)]
     Bench(bench::Bench),
     /// Find out where methods break: numerical stability of each, case by case.
+    #[command(after_help = examples::STRESS)]
     Stress(stress::Stress),
-    /// What a scene needs of a network: classes of fragments, time saved by skipping, the smallest network that will do.
+    /// Find out what a scene needs: classes of fragments, time saved by skipping, the smallest network that will do.
+    #[command(after_help = examples::PROFILE)]
     Profile(profile::Profile),
     /// Make one self-contained HTML page of what the other commands measured.
+    #[command(after_help = examples::REPORT)]
     Report(report::Report),
     /// Make a model file from the weights of another program.
+    #[command(after_help = examples::IMPORT)]
     Import(import::Import),
+    /// Print the completions of a shell.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(shell::Completions),
+    /// Write man pages of every command.
+    #[command(after_help = examples::MAN)]
+    Man(shell::Man),
+    /// Print the JSON Schema of configurations or of scene files.
+    #[command(after_help = examples::SCHEMA)]
+    Schema(shell::Schema),
 }
 
 /// How a command that did its work ended.
@@ -110,8 +138,8 @@ fn keep_inputs(inputs: &[&std::path::Path], out: &std::path::Path) -> anyhow::Re
     }
 }
 
-/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
-/// it was interrupted.
+/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage
+/// or input, 130 where it was interrupted.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
     interrupt::install();
@@ -131,6 +159,9 @@ pub fn main() -> ExitCode {
         Command::Profile(c) => c.execute(&ui),
         Command::Report(c) => c.execute(&ui),
         Command::Import(c) => c.execute(&ui),
+        Command::Completions(c) => c.execute(&ui),
+        Command::Man(c) => c.execute(&ui),
+        Command::Schema(c) => c.execute(&ui),
     };
     match done {
         Ok(Verdict::Fine) => ExitCode::SUCCESS,

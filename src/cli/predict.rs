@@ -5,7 +5,7 @@ use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
 use crate::features::passes::{Class, Tally};
 use crate::features::{MomentFrame, OutputMeaning};
-use crate::model::file;
+use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
 use crate::oit::Context;
@@ -71,7 +71,7 @@ impl Predict {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         keep_inputs(&[&self.model, &self.fragments], &self.out)?;
         may_write(&self.out, replace)?;
-        let mlp = file::load(&self.model)?;
+        let mlp = shipped::open(&self.model)?;
         let planes = self
             .near
             .zip(self.far)

@@ -4,17 +4,17 @@ use super::scene::{SceneOptions, ViewOptions, load};
 use super::ui::{Ui, table};
 use super::{Verdict, interrupt, keep_inputs};
 use crate::features::MomentDepthKind;
-use crate::model::{Mlp, file};
+use crate::model::{Mlp, file, shipped};
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
 use crate::oit::neural::Skip;
 use crate::profile::facts::Histogram;
 use crate::profile::simplify::{Report, Simplified, simplify};
-use crate::profile::specialise::{Plan, Specialised, specialise};
+use crate::profile::specialise::{Attempt, Plan, SizeChoice, Specialised, specialise};
 use crate::profile::{
-    Facts, Networked, Recommendation, Scene, facts, look_into, network, plot, recommend, shipped, skip,
+    Facts, Networked, Recommendation, Scene, default_networks, facts, look_into, network, recommend, skip,
 };
 use anyhow::{Context as _, bail};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub struct Profile {
     #[arg(long, value_name = "F.npz|SCENE")]
     fragments: String,
     /// Networks to look into; those that come with the program without it.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Error to keep: the image's mean squared error, or that of T where the list makes no image. Without it that of half a display step, or a
     /// fifth more than the best network's if that is greater; with --specialise the network's own.
@@ -36,6 +36,10 @@ pub struct Profile {
     /// Take out of this network what does nothing on the scene.
     #[arg(long, value_name = "MODEL.json", requires = "out", conflicts_with = "model")]
     simplify: Option<PathBuf>,
+    /// With --specialise: retrain at the network's own size (keep), take the smallest size that keeps the error (smallest), or the size with
+    /// the least error (best).
+    #[arg(long, value_enum, default_value = "smallest", requires = "specialise")]
+    network_size: SizeName,
     /// Folder for profile.json, profile.svg and a configuration; with --specialise or --simplify the model file to write.
     #[arg(long, value_name = "DIR|MODEL.json")]
     out: Option<PathBuf>,
@@ -49,6 +53,24 @@ pub struct Profile {
     /// Replace what is there.
     #[arg(long)]
     force: bool,
+}
+
+/// Which size a specialised network gets.
+#[derive(Clone, Copy, ValueEnum)]
+enum SizeName {
+    Keep,
+    Smallest,
+    Best,
+}
+
+impl From<SizeName> for SizeChoice {
+    fn from(name: SizeName) -> Self {
+        match name {
+            SizeName::Keep => Self::Keep,
+            SizeName::Smallest => Self::Smallest,
+            SizeName::Best => Self::Best,
+        }
+    }
 }
 
 impl Profile {
@@ -83,7 +105,7 @@ impl Profile {
         let planes = scene.context.planes_for(scene.list);
         let mut remarks = Vec::new();
         let models: Vec<Mlp> = if self.model.is_empty() {
-            let (able, unable) = shipped()?
+            let (able, unable) = default_networks()
                 .into_iter()
                 .partition(|m| m.feature_set().moment_depth() != MomentDepthKind::Window || planes.is_some());
             let unable: Vec<Mlp> = unable;
@@ -97,7 +119,7 @@ impl Profile {
         } else {
             self.model
                 .iter()
-                .map(|path| file::load(path))
+                .map(|path| shipped::open(path))
                 .collect::<Result<_, _>>()?
         };
         let progress = ui.progress("profile", models.len() as u64 + 1 + self.repeat as u64);
@@ -125,7 +147,7 @@ impl Profile {
         if let Some(folder) = &self.out {
             create_folder(folder)?;
             let json = serde_json::to_string_pretty(&super::ui::report("profile", vec![result.clone()]))? + "\n";
-            let drawing = plot::svg(&format!("{name}: {} fragments", facts.fragments), &facts)?;
+            let drawing = facts.drawing(&format!("{name}: {} fragments", facts.fragments));
             for (file, text) in FILES.iter().zip([&json, &drawing, &recommendation.config]) {
                 write_atomically(&folder.join(file), replace, |w| w.write_all(text.as_bytes()))?;
             }
@@ -149,9 +171,10 @@ impl Profile {
     }
 
     fn specialise(&self, ui: &Ui, scene: &Scene<'_>, model: &Path, replace: Replace) -> anyhow::Result<Verdict> {
-        let mlp = file::load(model)?;
+        let mlp = shipped::open(model)?;
         let plan = Plan {
             target_error: self.target_error,
+            size: self.network_size.into(),
             ..Plan::default()
         };
         let progress = ui.progress("specialise", plan.attempts as u64);
@@ -179,7 +202,7 @@ impl Profile {
                 "profile",
                 vec![json!({
                     "scene": self.fragments, "specialised": out, "from": model, "target_error": made.target_error, "target_error_held_out": made.target_held_out,
-                    "kept": chosen.kept, "before": made.before, "after": chosen, "errors_before": made.errors_before, "errors_after": made.errors_after,
+                    "network_size": plan.size, "kept": chosen.kept, "before": made.before, "after": chosen, "errors_before": made.errors_before, "errors_after": made.errors_after,
                     "attempts": made.attempts, "training_rows": made.rows[0], "held_out_rows": made.rows[1], "seconds": made.seconds,
                 })],
             )?;
@@ -190,7 +213,7 @@ impl Profile {
     }
 
     fn simplify(&self, ui: &Ui, scene: &Scene<'_>, model: &Path, replace: Replace) -> anyhow::Result<Verdict> {
-        let mlp = file::load(model)?;
+        let mlp = shipped::open(model)?;
         let rows = network::rows_of(scene, mlp.feature_set())?;
         let Simplified { mlp: left, report } =
             simplify(&mlp, &rows.features).with_context(|| model.display().to_string())?;
@@ -405,40 +428,42 @@ fn words(r: &Recommendation) -> String {
 
 fn specialised(made: &Specialised, image: bool, out: &Path) -> String {
     let kind = if image { "image MSE" } else { "T-MSE" };
-    let held_out = format!("{kind}, held out");
-    let mut rows = vec![cells([
+    let head = [
+        "",
         "network",
         "multiply-adds",
         kind,
-        &held_out,
-        "T-MSE",
+        "held out",
         "keeps the error",
         "seconds",
-    ])];
-    let row = |a: &crate::profile::specialise::Attempt, t: Option<f64>| {
+    ];
+    let mut rows = vec![cells(head)];
+    let row = |mark: &str, a: &Attempt, kept: &str| {
         vec![
+            mark.to_owned(),
             a.network.clone(),
             a.multiply_adds.to_string(),
             format!("{:.3e}", a.error),
             format!("{:.3e}", a.error_held_out),
-            number(t),
-            if a.kept { "yes" } else { "no" }.to_owned(),
+            kept.to_owned(),
             format!("{:.1}", a.seconds),
         ]
     };
-    let mut first = row(&made.before, Some(made.errors_before.transmittance_mse));
-    first[5] = "(before)".to_owned();
-    rows.push(first);
+    rows.push(row("", &made.before, "(before)"));
     for (i, a) in made.attempts.iter().enumerate() {
-        rows.push(row(
-            a,
-            (i == made.chosen).then_some(made.errors_after.transmittance_mse),
-        ));
+        let mark = match (i == made.chosen, a.on_front) {
+            (true, true) => "> *",
+            (true, false) => ">",
+            (false, true) => "  *",
+            (false, false) => "",
+        };
+        rows.push(row(mark, a, if a.kept { "yes" } else { "no" }));
     }
     let (chosen, before) = (&made.attempts[made.chosen], &made.before);
     format!(
-        "{}to keep: {:.3e}, and {:.3e} on what was held out ({} rows trained on, {} held out in tiles of 8 x 8)\n\
-         {} -> {}: {:.2} times the multiply-adds, {:.2} times the error; {:.1} s\n\
+        "{}>: written; *: no other size is both as small and as good (Pareto front)\n\
+         to keep: {:.3e}, and {:.3e} on what was held out ({} rows trained on, {} held out in tiles of 8 x 8)\n\
+         {} -> {}: {:.2} times the multiply-adds, {:.2} times the error; T-MSE {:.2e} -> {:.2e}; {:.1} s\n\
          The result is for this scene and those like it; elsewhere use the network that it came from.\n{}\n",
         table(&rows),
         made.target_error,
@@ -449,6 +474,8 @@ fn specialised(made: &Specialised, image: bool, out: &Path) -> String {
         chosen.network,
         chosen.multiply_adds as f64 / before.multiply_adds as f64,
         chosen.error / before.error,
+        made.errors_before.transmittance_mse,
+        made.errors_after.transmittance_mse,
         made.seconds,
         out.display()
     )
@@ -528,8 +555,7 @@ mod tests {
             let list = crate::scene::build(&crate::scene::open(name).unwrap(), &options).unwrap();
             let scene = Scene::new(&list, crate::oit::Context::default(), [1.0; 3]);
             let facts = facts(&scene).unwrap();
-            let networks: Vec<_> = shipped()
-                .unwrap()
+            let networks: Vec<_> = default_networks()
                 .iter()
                 .take(2)
                 .map(|m| look_into(&scene, m).unwrap())

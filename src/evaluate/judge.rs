@@ -18,15 +18,16 @@ pub struct MethodResult {
     /// Memory, passes, needs, and whether the order of the fragments counts.
     #[serde(flatten)]
     pub capabilities: Capabilities,
-    /// Mean squared error of T over all fragments; none for methods whose weights are not transmittances and lists without fragments, NaN
-    /// where a weight is not finite.
+    /// Mean squared error of T over all fragments; none for methods whose weights are not transmittances and lists
+    /// without fragments, NaN where a weight is not finite.
     pub transmittance_mse: Option<f64>,
     /// Greatest absolute error of T over all fragments; none and NaN as for the mean.
     pub transmittance_worst_error: Option<f64>,
-    /// Mean squared error of the image over all pixels and channels, unclamped; none where the list makes no image (no colours, no size,
-    /// no pixels), NaN where a channel is not finite.
+    /// Mean squared error of the image over all pixels and channels, unclamped; none where the list makes no image (no
+    /// colours, no size, no pixels), NaN where a channel is not finite.
     pub image_mse: Option<f64>,
-    /// Peak signal-to-noise ratio of the image for a peak of 1 \[dB\]; none and NaN as for the MSE, and infinite, null in JSON, where that is 0.
+    /// Peak signal-to-noise ratio of the image for a peak of 1 \[dB\]; none and NaN as for the MSE, and infinite, null
+    /// in JSON, where that is 0.
     pub image_psnr_db: Option<f64>,
     /// Mean of the FLIP map; none and NaN as for the MSE.
     pub flip_mean: Option<f64>,
@@ -43,13 +44,15 @@ pub struct MethodResult {
     /// Stem of the names of its picture files; none where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
-    /// Errors in each random order of the fragments, of which the errors above are means; none where order changes nothing.
+    /// Errors in each random order of the fragments, of which the errors above are means; none where order changes
+    /// nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orders: Option<Vec<OrderResult>>,
     /// Errors by the number of fragments in a pixel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_fragments_per_pixel: Option<Vec<CountBin>>,
-    /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without fragments.
+    /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without
+    /// fragments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_alpha: Option<Vec<AlphaBin>>,
     /// Change from frame to frame; none where the camera stands still.
@@ -179,7 +182,8 @@ pub fn evaluate(
     Ok(results)
 }
 
-/// Sorts by image MSE, or by the MSE of T where there is no image; what is NaN comes last but for what has no number at all, equals by name.
+/// Sorts by image MSE, or by the MSE of T where there is no image; what is NaN comes last but for what has no number at
+/// all, equals by name.
 pub fn sort_by_error(results: &mut [MethodResult]) {
     results.sort_by(by_error);
 }
@@ -329,7 +333,8 @@ pub(super) mod tests {
         assert!(nan.image_mse.unwrap().is_nan() && nan.flip_mean.unwrap().is_nan() && nan.image_nonfinite.unwrap() > 0);
     }
 
-    /// The bins of a method are of the list's own pixels and fragments; their weighted means are the whole's errors, to 1e-12 of them.
+    /// The bins of a method are of the list's own pixels and fragments; their weighted means are the whole's errors, to
+    /// 1e-12 of them.
     #[test]
     fn bins_are_of_the_whole_list() {
         let list = colored_list(20, 15);

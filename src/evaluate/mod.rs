@@ -9,7 +9,6 @@ pub mod order;
 pub mod over_time;
 pub mod picture;
 pub mod shadow;
-mod text;
 pub mod tinted;
 
 pub use bins::{AlphaBin, CountBin};

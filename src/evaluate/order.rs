@@ -67,8 +67,8 @@ pub fn fragment_orders(list: &FragmentList, count: u64) -> impl Iterator<Item = 
     })
 }
 
-/// Judges methods that depend on the order in every one of some orders: the pictures are of the first, errors the means over all. With no order at
-/// all there is no result.
+/// Judges methods that depend on the order in every one of some orders: the pictures are of the first, errors the means
+/// over all. With no order at all there is no result.
 ///
 /// # Errors
 /// The first order that could not be made; beside that, [`EvaluateError`] of each method that cannot be applied.
@@ -142,7 +142,8 @@ fn over_orders(result: MethodResult, orders: Vec<OrderResult>) -> MethodResult {
     }
 }
 
-/// Least and greatest image error over the orders that a method was judged in, or of T where there is no image; none where order changes nothing.
+/// Least and greatest image error over the orders that a method was judged in, or of T where there is no image; none
+/// where order changes nothing.
 pub fn spread(result: &MethodResult) -> Option<(f64, f64)> {
     let figures: Vec<f64> = result
         .orders
@@ -201,8 +202,9 @@ mod tests {
         assert_eq!(shuffle_fragments(&none, 1), none);
     }
 
-    /// The bug that this module is for: `glass-stacks` comes nearly sorted from the rasteriser, where multi-layer alpha blending looks faultless; in
-    /// random orders it is at least ten times worse. The mean lies within the spread, and enough layers need no order.
+    /// The bug that this module is for: `glass-stacks` comes nearly sorted from the rasteriser, where multi-layer alpha
+    /// blending looks faultless; in random orders it is at least ten times worse. The mean lies within the spread, and
+    /// enough layers need no order.
     #[test]
     fn list_order_flatters() {
         let list = glass();
@@ -232,8 +234,9 @@ mod tests {
         assert!(result.image_mse.unwrap() < 1e-30);
     }
 
-    /// Every method that does not say that it depends on the order gives the same bits in any: weights, and colours of pixels without ties. What is
-    /// stored in f32 or 16 bits rounds with every fragment, and changes by no more than that. Control: those that do say so do change.
+    /// Every method that does not say that it depends on the order gives the same bits in any: weights, and colours of
+    /// pixels without ties. What is stored in f32 or 16 bits rounds with every fragment, and changes by no more than
+    /// that. Control: those that do say so do change.
     #[test]
     fn order_changes_no_bit_in_f64() {
         let list = colored_list(24, 20);

@@ -1,4 +1,5 @@
-//! Shadows of transparent surfaces: methods answer how much light reaches a point, from what a shadow map keeps of each texel.
+//! Shadows of transparent surfaces: methods answer how much light reaches a point, from what a shadow map keeps of each
+//! texel.
 
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{self, Capabilities, Context, Method, MethodError};
@@ -12,8 +13,8 @@ use serde::{Deserialize, Serialize};
 pub enum Filter {
     /// The texel that holds the point.
     Nearest,
-    /// Sums of 9 × 9 texels under a Gaussian of standard deviation 1.5, interpolated between texels: absorbances are filtered, that is, moments with
-    /// their normalisation by b0 undone.
+    /// Sums of 9 × 9 texels under a Gaussian of standard deviation 1.5, interpolated between texels: absorbances are
+    /// filtered, that is, moments with their normalisation by b0 undone.
     ///
     /// # Source
     /// MKKP18 Sec. 6.
@@ -49,9 +50,10 @@ const MAX_FRAGMENTS: usize = 1 << 22;
 
 /// Transmittance towards the light of each receiver, as a method has it.
 ///
-/// A receiver asks as a fragment of opacity 0 among those of its texel. Filtered, it stands among the fragments of all texels under the filter, each
-/// with its absorbance times its weight: sums of absorbance, moments and coefficients are then the filtered ones. Number and range of fragments are
-/// no such sums; a method that looks at them should ask unfiltered.
+/// A receiver asks as a fragment of opacity 0 among those of its texel. Filtered, it stands among the fragments of all
+/// texels under the filter, each with its absorbance times its weight: sums of absorbance, moments and coefficients are
+/// then the filtered ones. Number and range of fragments are no such sums; a method that looks at them should ask
+/// unfiltered.
 ///
 /// # Errors
 /// [`MethodError`] where the method cannot be applied to a texel.
@@ -212,7 +214,8 @@ mod tests {
         assert!(filtered(&map, (0.5, 0.5)).len() < 81);
     }
 
-    /// One pane of alpha 1/2 at depth 2 shades what lies behind it by 1/2 and nothing in front, filtered or not; the control asks in front.
+    /// One pane of alpha 1/2 at depth 2 shades what lies behind it by 1/2 and nothing in front, filtered or not; the
+    /// control asks in front.
     #[test]
     fn one_pane_by_hand() {
         let n = 32usize * 32;
@@ -233,7 +236,8 @@ mod tests {
         }
     }
 
-    /// The A-buffer, asked at the texel, is as near to the rays as the map's resolution allows: nearer than Fourier opacity maps, and a finer map is nearer.
+    /// The A-buffer, asked at the texel, is as near to the rays as the map's resolution allows: nearer than Fourier
+    /// opacity maps, and a finer map is nearer.
     #[test]
     fn methods_are_judged_by_rays() {
         let shadowed = |map_size| {

@@ -1,15 +1,17 @@
-//! Coloured transmittance: what methods of one transmittance make of tinted glass, and what three channels of sums make of it.
+//! Coloured transmittance: what methods of one transmittance make of tinted glass, and what three channels of sums make
+//! of it.
 
 use super::{EvaluateError, Image};
 use crate::oit::{self, Capabilities, Context, Method};
 use crate::pixel::{FragmentList, abuffer};
 use serde::{Deserialize, Serialize};
 
-/// Glass tinted in its own colour, by a strength s in [0, 1]: a fragment of opacity a and colour C lets 1 − a (1 − s C) of a channel through and adds
-/// a (1 − s) C to it. At s = 0 it is the usual fragment, at s = 1 a filter that reflects nothing.
+/// Glass tinted in its own colour, by a strength s in [0, 1]: a fragment of opacity a and colour C lets 1 − a (1 − s C)
+/// of a channel through and adds a (1 − s) C to it. At s = 0 it is the usual fragment, at s = 1 a filter that reflects
+/// nothing.
 ///
-/// Each channel is a list of usual fragments of its own, of opacity a (1 − s C) and colour (1 − s) C/(1 − s C): the over operator and every method
-/// apply to it as they stand.
+/// Each channel is a list of usual fragments of its own, of opacity a (1 − s C) and colour (1 − s) C/(1 − s C): the
+/// over operator and every method apply to it as they stand.
 #[derive(Debug)]
 pub struct Tinted {
     /// Lists of the channels, opacity and colour of each; red, green, blue.
@@ -28,8 +30,8 @@ pub struct TintedResult {
     pub scalar_image_mse: f64,
     /// Mean squared error of the image where each channel has sums of its own.
     pub three_channel_image_mse: f64,
-    /// Memory of three channels besides the colour accumulator \[bits\]: three times that of one, ranges and counts too; none where it grows with
-    /// the scene. Passes stay as many.
+    /// Memory of three channels besides the colour accumulator \[bits\]: three times that of one, ranges and counts
+    /// too; none where it grows with the scene. Passes stay as many.
     pub three_channel_bits_per_pixel: Option<u32>,
 }
 
@@ -142,7 +144,8 @@ mod tests {
     use crate::evaluate::judge::tests::colored_list;
     use crate::oit::parse;
 
-    /// By hand: a filter (s = 1) of opacity 1/2 and colour (1, 1/2, 0) over white lets (1, 3/4, 1/2) through and adds nothing; at s = 0 all is as usual.
+    /// By hand: a filter (s = 1) of opacity 1/2 and colour (1, 1/2, 0) over white lets (1, 3/4, 1/2) through and adds
+    /// nothing; at s = 0 all is as usual.
     #[test]
     fn one_pane_by_hand() {
         let pane = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], Some(vec![[1.0, 0.5, 0.0]])).unwrap();

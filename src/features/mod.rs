@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 
 /// A feature set: which numbers, in which order, of which moments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum FeatureSet {
     /// NMT24's seven features; see [`paper`].
@@ -228,6 +229,7 @@ pub enum MomentFrame {
 
 /// Precision in which pass 1 adds moments up, and with it the noise that a network meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum SumPrecision {
     /// RGBA32F targets: every sum is rounded to f32.

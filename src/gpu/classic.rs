@@ -84,9 +84,10 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {{
     )
 }
 
-/// Pass 2 from the moments of the others: exact rules first, in this order; then their curve in the middle of its bounds; where rounding makes that no
-/// transmittance, half of what is known to be there. (The CPU's tries all moments before that, which 16-bit storage needs; in f32 it would double the work of
-/// devices that run both sides of a branch, for what `classic::tests::hard_pixels` meets in one answer of thousands.)
+/// Pass 2 from the moments of the others: exact rules first, in this order; then their curve in the middle of its
+/// bounds; where rounding makes that no transmittance, half of what is known to be there. (The CPU's tries all moments
+/// before that, which 16-bit storage needs; in f32 it would double the work of devices that run both sides of a branch,
+/// for what `classic::tests::hard_pixels` meets in one answer of thousands.)
 fn without_own(curve: &str, k: usize) -> String {
     let others: Vec<String> = (0..k).map(|i| format!("p.sums[{i}] - own[{i}]")).collect();
     format!(
@@ -126,8 +127,8 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 impl MethodShader {
     /// The twin of a classic method by its name on the command line; none where it has no twin.
     ///
-    /// Moments are f32, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the CPU's, which are f64 after pass 1, all
-    /// arithmetic is f32.
+    /// Moments are f32, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the CPU's,
+    /// which are f64 after pass 1, all arithmetic is f32.
     ///
     /// # Accuracy
     /// Against the CPU's method on the same f32 moments: `classic::tests::twins_answer_as_on_the_cpu`.
@@ -233,7 +234,8 @@ impl MethodShader {
         }
     }
 
-    /// No method: every weight is 1, once a fragment's depth and absorbance and its pixel's total are there, as every method has them.
+    /// No method: every weight is 1, once a fragment's depth and absorbance and its pixel's total are there, as every
+    /// method has them.
     pub fn empty(name: &str) -> Self {
         let weight = "
 fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
@@ -328,8 +330,9 @@ mod tests {
         }
     }
 
-    /// T of the twins of moment-based methods: 99 % within 1e-3 of the CPU's on the same f32 moments, all finite, and the same T-MSE to 1 %. What lies further
-    /// apart are fragments where the moments are nearly those of fewer atoms, which rounding decides. Control: the answers of another number of moments.
+    /// T of the twins of moment-based methods: 99 % within 1e-3 of the CPU's on the same f32 moments, all finite, and
+    /// the same T-MSE to 1 %. What lies further apart are fragments where the moments are nearly those of fewer atoms,
+    /// which rounding decides. Control: the answers of another number of moments.
     #[test]
     fn twins_answer_as_on_the_cpu() {
         let Some(gpu) = gpu() else { return };
@@ -351,8 +354,8 @@ mod tests {
         }
     }
 
-    /// Twins whose pass 1 is no sum: 99.9 % of T within 1e-4 of the CPU's f64, all within 1e-2, where a fragment lies beside the border of a cell.
-    /// Control: the answers of the twin before it.
+    /// Twins whose pass 1 is no sum: 99.9 % of T within 1e-4 of the CPU's f64, all within 1e-2, where a fragment lies
+    /// beside the border of a cell. Control: the answers of the twin before it.
     #[test]
     fn inserted_twins_answer_as_on_the_cpu() {
         let Some(gpu) = gpu() else { return };
@@ -371,7 +374,8 @@ mod tests {
         }
     }
 
-    /// Weights of the other twins within 5e-6 relative; within 1e-4 where 1 − w cancels, w the window depth. Control: the weights of the function before it.
+    /// Weights of the other twins within 5e-6 relative; within 1e-4 where 1 − w cancels, w the window depth. Control:
+    /// the weights of the function before it.
     #[test]
     fn blending_weights_are_those_of_the_cpu() {
         let Some(gpu) = gpu() else { return };
@@ -424,8 +428,9 @@ mod tests {
         FragmentList::new(offsets, view_z, alpha, None).unwrap()
     }
 
-    /// Where all fragments of a pixel are next to each other, published methods lose rank: at most 2 % of such answers may fail to be finite or be above 1, and are
-    /// counted; of `+own` none may, and it answers the nearest fragment, and pixels without absorbance, by 1 exactly. Control: without `+own` the nearest is not 1.
+    /// Where all fragments of a pixel are next to each other, published methods lose rank: at most 2 % of such answers
+    /// may fail to be finite or be above 1, and are counted; of `+own` none may, and it answers the nearest fragment,
+    /// and pixels without absorbance, by 1 exactly. Control: without `+own` the nearest is not 1.
     #[test]
     fn hard_pixels() {
         let Some(gpu) = gpu() else { return };
@@ -469,8 +474,8 @@ mod tests {
         }
     }
 
-    /// Closed forms against the CPU's iteration in f64: cos(acos(x)/3) within 4e-7, roots of random polynomials, at least 0.2 apart in [−3, 3], within 1e-3. Control:
-    /// the roots of other polynomials.
+    /// Closed forms against the CPU's iteration in f64: cos(acos(x)/3) within 4e-7, roots of random polynomials, at
+    /// least 0.2 apart in [−3, 3], within 1e-3. Control: the roots of other polynomials.
     #[test]
     fn roots_are_those_of_the_cpu() {
         let Some(gpu) = gpu() else { return };

@@ -1,4 +1,5 @@
-//! Both passes of a method over a fragment list in compute shaders: the arithmetic of a method without a renderer around it, each pass timed by itself.
+//! Both passes of a method over a fragment list in compute shaders: the arithmetic of a method without a renderer
+//! around it, each pass timed by itself.
 
 use super::device::{Dispatch, Gpu, GpuError, groups};
 use super::method::{MethodShader, Pass1};
@@ -131,8 +132,8 @@ impl<'a> Passes<'a> {
     /// [`GpuError`]: the method's source is refused, or the list does not fit.
     pub fn new(gpu: &Gpu, list: &'a DeviceList, method: &MethodShader, range: [f32; 2]) -> Result<Self, GpuError> {
         let k = method.sums;
-        // What pass 2 reads of a pixel, four numbers to a vector: the sums, and where the method looks at them number and range of its fragments, the range
-        // with its moment depths, so that no fragment warps the depths of others.
+        // What pass 2 reads of a pixel, four numbers to a vector: the sums, and where the method looks at them number
+        // and range of its fragments, the range with its moment depths, so that no fragment warps the depths of others.
         let mut state: Vec<String> = (0..k).map(|i| format!("sums[{i}]")).collect();
         if method.range {
             let kept = [
@@ -295,8 +296,9 @@ mod tests {
     use crate::scene;
     use std::path::Path;
 
-    /// A shipped network over built-in scenes: GPU against the CPU's pass. Logarithms differ by some ulp, which thin pixels magnify; so the error against the exact
-    /// answer is compared, and where nothing is magnified the answers: T-MSE within 2 %, 99 % of T within 3e-3. Control: another pixel's answers.
+    /// A shipped network over built-in scenes: GPU against the CPU's pass. Logarithms differ by some ulp, which thin
+    /// pixels magnify; so the error against the exact answer is compared, and where nothing is magnified the answers:
+    /// T-MSE within 2 %, 99 % of T within 3e-3. Control: another pixel's answers.
     #[test]
     fn a_network_answers_as_on_the_cpu() {
         let Some(gpu) = gpu() else { return };

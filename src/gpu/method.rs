@@ -1,4 +1,5 @@
-//! A transparency method as WGSL: what pass 1 adds up, and the weight that pass 2 makes of it. One source serves compute shaders and render passes.
+//! A transparency method as WGSL: what pass 1 adds up, and the weight that pass 2 makes of it. One source serves
+//! compute shaders and render passes.
 
 use super::device::GpuError;
 use crate::export::Format;
@@ -21,7 +22,8 @@ pub enum Composite {
     /// # Source
     /// Meshkin 2007, [`crate::oit::weighted_sum`].
     Sum,
-    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is 0.
+    /// (1 − t)/Σ a w · Σ a w C + t C_bg with t = (1 − Σ a w/n)^n, n the number of fragments; C_bg alone where Σ a w is
+    /// 0.
     ///
     /// # Source
     /// Bavoil, Myers 2008, [`crate::oit::weighted_average`].
@@ -33,9 +35,10 @@ pub enum Composite {
 pub enum Pass1 {
     /// It adds up what `oit_accumulate` says of each fragment: by blending, or a thread a pixel.
     Added,
-    /// It hands the numbers, zeros at first, from one fragment of the pixel to the next, with the pixel's nearest and farthest v, which a prepass has
-    /// found: `fn oit_insert(sums: ptr<function, array<f32, K>>, f: OitFragment, nearest: f32, farthest: f32)`. A thread a pixel does it here; a
-    /// renderer needs an interlock, or where the numbers are sums after all, blending and the prepass.
+    /// It hands the numbers, zeros at first, from one fragment of the pixel to the next, with the pixel's nearest and
+    /// farthest v, which a prepass has found: `fn oit_insert(sums: ptr<function, array<f32, K>>, f: OitFragment,
+    /// nearest: f32, farthest: f32)`. A thread a pixel does it here; a renderer needs an interlock, or where the
+    /// numbers are sums after all, blending and the prepass.
     Inserted,
 }
 
@@ -43,12 +46,16 @@ pub enum Pass1 {
 ///
 /// # Contract
 /// `source` defines, with `OitFragment` and `OitPixel` as `prelude.wgsl` has them and K = [`Self::sums`]:
-/// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total absorbance;
+/// - `fn oit_accumulate(f: OitFragment) -> array<f32, K>`: what pass 1 adds for a fragment; sums\[0\] is b0, the total
+/// absorbance;
 /// - `fn oit_weight(f: OitFragment, p: OitPixel) -> f32`: its weight in pass 2, transmittance in front of it;
-/// - where there is a shorter way in pixels of up to four fragments, or of fragments at one depth, `fn oit_short_weight`: there, the same numbers;
-/// - with it `fn oit_end_weight`: the same number where a fragment is an end of its pixel or has next to nothing beside it, else −1;
-/// - where a network is spared what cannot be seen, `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`, `fn oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
-///   [`visible`](crate::features::visible) has them.
+/// - where there is a shorter way in pixels of up to four fragments, or of fragments at one depth, `fn
+/// oit_short_weight`: there, the same numbers;
+/// - with it `fn oit_end_weight`: the same number where a fragment is an end of its pixel or has next to nothing beside
+/// it, else −1;
+/// - where a network is spared what cannot be seen, `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`, `fn
+/// oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as
+/// [`visible`](crate::features::visible) has them.
 ///
 /// No name of it but these begins with `oit_`.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +66,8 @@ pub struct MethodShader {
     pub sums: usize,
     /// Whether pass 2 looks at number and range of a pixel's fragments; where not, a renderer need not keep them.
     pub range: bool,
-    /// How pass 1 makes them; where [`Pass1::Inserted`], the source defines `oit_insert` in place of `oit_accumulate`, and no sum need be b0.
+    /// How pass 1 makes them; where [`Pass1::Inserted`], the source defines `oit_insert` in place of `oit_accumulate`,
+    /// and no sum need be b0.
     pub pass1: Pass1,
     /// Depth that `OitFragment.z` holds.
     pub depth: MomentDepthKind,
@@ -73,7 +81,8 @@ impl MethodShader {
     /// A network, by the shader source that `format` exports.
     ///
     /// # Errors
-    /// [`GpuError::Source`] where the format is no WGSL, the network does not fit into f16, or its answer is no transmittance.
+    /// [`GpuError::Source`] where the format is no WGSL, the network does not fit into f16, or its answer is no
+    /// transmittance.
     pub fn neural(mlp: &Mlp, format: Format) -> Result<Self, GpuError> {
         let label = || format!("neural:{}", mlp.name());
         let set = mlp.feature_set();
@@ -176,8 +185,9 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         })
     }
 
-    /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what cannot be seen; `None` and `Exact` are one text, whose branches the device
-    /// takes or does not. A method that has no network keeps its weight.
+    /// The same method for passes that look at one fragment at a time. With [`Skip::Visible`] a network is spared what
+    /// cannot be seen; `None` and `Exact` are one text, whose branches the device takes or does not. A method that has
+    /// no network keeps its weight.
     pub fn with_skip(self, skip: Skip) -> Self {
         if skip != Skip::Visible || !self.tells_visible() {
             return self;
@@ -199,7 +209,8 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
         self.source.contains("fn oit_short_weight(")
     }
 
-    /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable f16;`, come first.
+    /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable
+    /// f16;`, come first.
     pub fn module(&self) -> String {
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));
@@ -213,7 +224,8 @@ fn oit_log_ratio(a: f32, b: f32) -> f32 {
     return select(log(a * (1.0 / b)), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))), abs(s) < 0.2);
 }
 
-// Moment depth of v; range holds v0 and 2/ln(v1/v0), v0 and v1 the scene's least and greatest v, or 0 where they are one.
+// Moment depth of v; range holds v0 and 2/ln(v1/v0), v0 and v1 the scene's least and greatest v, or 0 where they are
+// one.
 fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
     return select(0.0, clamp(oit_log_ratio(v, range.x) * range.y - 1.0, -1.0, 1.0), range.y > 0.0);
 }
@@ -237,7 +249,8 @@ fn oit_depth(v: f32, range: vec2<f32>) -> f32 {
         )
     }
 
-    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are one; or the camera's planes.
+    /// What `oit_depth` measures depths by: of the extremes v0, v1 of the scene v0 and 2/ln(v1/v0), 0 where they are
+    /// one; or the camera's planes.
     ///
     /// # Errors
     /// [`GpuError::Source`] where planes are needed and unknown.

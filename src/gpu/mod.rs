@@ -1,6 +1,7 @@
 //! The GPU: a headless device, exported functions run in compute shaders, and the two passes as a renderer makes them.
 //!
-//! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips visibly or fails.
+//! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips
+//! visibly or fails.
 
 pub mod classic;
 pub mod compute;
@@ -16,20 +17,10 @@ pub use method::{MethodShader, Pass1};
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::numeric::require::or_skip;
 
-    /// The device that tests run on; none, said aloud, where there is no adapter, and a failure where `NMT_REQUIRE` names `gpu`.
+    /// The device that tests run on; none, reported as skipped, where there is no adapter.
     pub fn gpu() -> Option<&'static Gpu> {
-        match Gpu::shared() {
-            Ok(gpu) => Some(gpu),
-            Err(why) => {
-                let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-                assert!(
-                    !required.split(',').any(|tool| tool.trim() == "gpu"),
-                    "a GPU is required: {why}"
-                );
-                println!("skipped: {why}");
-                None
-            }
-        }
+        or_skip("gpu", Gpu::shared())
     }
 }

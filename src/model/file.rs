@@ -17,6 +17,16 @@ pub enum ModelError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// It is neither a file nor the name of a network that comes with the program.
+    #[error("there is no network '{name}': give the path of a model file, or one of {known}{suggestion}")]
+    Unknown {
+        /// What was given.
+        name: String,
+        /// The names there are.
+        known: String,
+        /// The name that was probably meant.
+        suggestion: String,
+    },
     /// It is not a model file.
     #[error("{}: not a model file: {reason}", path.display())]
     NotAModel {

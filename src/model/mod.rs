@@ -3,6 +3,7 @@
 pub mod file;
 pub mod kernel;
 pub mod mlp;
+pub mod shipped;
 pub mod simplify;
 
 pub use file::ModelError;

@@ -1,10 +1,11 @@
 //! Sums that do not depend on the order of their terms.
 
-/// A sum in fixed point: every term is rounded by itself to a multiple of 2^−80, and whole numbers add up without rounding, so that any order of
-/// the terms gives the same bits.
+/// A sum in fixed point: every term is rounded by itself to a multiple of 2^−80, and whole numbers add up without
+/// rounding, so that any order of the terms gives the same bits.
 ///
 /// # Domain
-/// Terms below 2^40 in size, at most 2^6 of the greatest. Greater ones and those that are not finite are added up beside, in f64, in their order.
+/// Terms below 2^40 in size, at most 2^6 of the greatest. Greater ones and those that are not finite are added up
+/// beside, in f64, in their order.
 ///
 /// # Accuracy
 /// Each term is off by at most 2^−80, below half an ulp of every f64 above 2^−27. Test `the_order_changes_no_bit`.

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `f32`, `f64` | reference code, pixel by pixel |
 //! | `f32x16<S>` | kernels, sixteen fragments at once |
-//! | [`stress::arithmetic::Device`](crate::stress::arithmetic::Device) | single precision with everything that shading languages allow beside IEEE 754 |
+//! | `Device` of the stress suite | single precision with everything that shading languages allow beside IEEE 754 |
 //! | [`Expression`](super::source::Expression) | no numbers at all: it writes the formula as shader source |
 //!
 //! # How a formula is written

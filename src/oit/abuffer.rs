@@ -35,7 +35,8 @@ impl Method for ABuffer {
         NAME.to_owned()
     }
 
-    /// It keeps every fragment, so that no number of bits suffices for all pixels: a list of them, linked by atomics, drawn once.
+    /// It keeps every fragment, so that no number of bits suffices for all pixels: a list of them, linked by atomics,
+    /// drawn once.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
             bits_per_pixel: None,

@@ -18,21 +18,24 @@ pub enum Removal {
     /// Salvi, Montgomery, Lefohn, HPG 2011, Sec. 3.2.
     #[default]
     LeastArea,
-    /// The farthest node; what [`super::multi_layer_alpha`] does with colours. It needs no search, shaders of the method written since 2014 merge
-    /// their last two nodes so, and of a function without colours the same nodes are left in whatever order fragments arrive.
+    /// The farthest node; what [`super::multi_layer_alpha`] does with colours. It needs no search, shaders of the
+    /// method written since 2014 merge their last two nodes so, and of a function without colours the same nodes are
+    /// left in whatever order fragments arrive.
     ///
     /// # Source
     /// Salvi, Vaidyanathan, I3D 2014, Sec. 3.
     Farthest,
 }
 
-/// Pass 1 keeps T over depth as a step function of K nodes (depth, T behind it). A fragment inserts a node, behind nodes of equal depth, and brings
-/// down all nodes behind it; when there are K + 1 nodes, one goes by the [`Removal`] rule, and its step is moved to
-/// the node before it. So T is never overestimated, and the last node always has the exact total. The first node is
-/// never removed. Pass 2 weights a fragment by the function in front of its node: C = Σ a T C + T_last C_bg, not normalised.
+/// Pass 1 keeps T over depth as a step function of K nodes (depth, T behind it). A fragment inserts a node, behind
+/// nodes of equal depth, and brings down all nodes behind it; when there are K + 1 nodes, one goes by the [`Removal`]
+/// rule, and its step is moved to the node before it. So T is never overestimated, and the last node always has the
+/// exact total. The first node is never removed. Pass 2 weights a fragment by the function in front of its node: C = Σ
+/// a T C + T_last C_bg, not normalised.
 ///
-/// Areas are taken over view_z. Nodes are sorted by (view_z, input index), which is also how the function is asked, so that a tie is broken as the
-/// A-buffer's image breaks it. Fragments are inserted in the order of the input; the result depends on it unless K is at least their number.
+/// Areas are taken over view_z. Nodes are sorted by (view_z, input index), which is also how the function is asked, so
+/// that a tie is broken as the A-buffer's image breaks it. Fragments are inserted in the order of the input; the result
+/// depends on it unless K is at least their number.
 ///
 /// # Source
 /// Salvi, Montgomery, Lefohn, *Adaptive Transparency*, HPG 2011, Sec. 3.
@@ -110,8 +113,8 @@ impl Method for Adaptive {
 }
 
 impl Adaptive {
-    /// The function whose farthest node always goes: the K nearest fragments have nodes, the last of which takes every step behind it. Whatever the
-    /// order of insertion, the same nodes are left.
+    /// The function whose farthest node always goes: the K nearest fragments have nodes, the last of which takes every
+    /// step behind it. Whatever the order of insertion, the same nodes are left.
     fn farthest_removed(&self, order: &mut Vec<u32>, pixel: Pixel<'_>, out: &mut [f64]) -> f64 {
         abuffer::front_to_back(pixel, order);
         let total = libm::exp(-abuffer::total_absorbance(pixel));
@@ -216,7 +219,8 @@ mod tests {
         }
     }
 
-    /// The rule of 2014 merges the farthest: of nodes 1 (1/2), 2 (1/4), 5 (1/8) that at 5 goes, where the rule of 2011 lets that at 2 go.
+    /// The rule of 2014 merges the farthest: of nodes 1 (1/2), 2 (1/4), 5 (1/8) that at 5 goes, where the rule of 2011
+    /// lets that at 2 go.
     #[test]
     fn both_rules_by_hand() {
         let far = pixel(&[5.0, 1.0, 2.0], &[0.5; 3], three().color().unwrap());

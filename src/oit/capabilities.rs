@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 /// What a method keeps of a pixel, how often it draws the geometry, and what it asks of a device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Capabilities {
-    /// What is kept of a pixel besides the colour accumulator: sums, ranges, layers, cores \[bits\]; none where it grows with the scene.
+    /// What is kept of a pixel besides the colour accumulator: sums, ranges, layers, cores \[bits\]; none where it
+    /// grows with the scene.
     ///
-    /// Where the reference pipeline ([`crate::gpu::pipeline`]) draws the method, it is what the targets of pass 1 take there ([`targets`]);
-    /// elsewhere what the method's own source allocates.
+    /// Where the reference pipeline ([`crate::gpu::pipeline`]) draws the method, it is what the targets of pass 1 take
+    /// there ([`targets`]); elsewhere what the method's own source allocates.
     pub bits_per_pixel: Option<u32>,
     /// The target that weighted colours are added up in \[bits\]; 0 where colours lie in the layers themselves.
     pub colour_bits_per_pixel: u32,
@@ -23,7 +24,8 @@ pub struct Capabilities {
 /// What a method asks of a device or of the renderer around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Needs {
-    /// Fragments of a pixel one after the other: rasteriser-ordered views, fragment shader interlock, raster order groups.
+    /// Fragments of a pixel one after the other: rasteriser-ordered views, fragment shader interlock, raster order
+    /// groups.
     pub interlock: bool,
     /// Atomic operations of fragment shaders on storage buffers.
     pub atomics: bool,
@@ -94,8 +96,8 @@ pub const fn sums(numbers: u32) -> u32 {
     128 * (numbers / 4) + 32 * rest
 }
 
-/// What the targets of pass 1 take in the reference pipeline: the sums; and where pass 2 looks at the pixel's range, number of fragments and both
-/// ends \[bits\].
+/// What the targets of pass 1 take in the reference pipeline: the sums; and where pass 2 looks at the pixel's range,
+/// number of fragments and both ends \[bits\].
 pub const fn targets(numbers: u32, range: bool) -> u32 {
     if range {
         sums(numbers + 1) + RANGE_BITS

@@ -26,14 +26,15 @@ pub struct WrongFeatures {
     found: FeatureSet,
 }
 
-/// A network that estimates the front-to-back factor of a fragment from its depth and its pixel's sum of alpha and number of fragments; the factor
-/// is the weight: C = Σ w a C/Σ w a · (1 − e^−b0) + e^−b0 C_bg.
+/// A network that estimates the front-to-back factor of a fragment from its depth and its pixel's sum of alpha and
+/// number of fragments; the factor is the weight: C = Σ w a C/Σ w a · (1 − e^−b0) + e^−b0 C_bg.
 ///
-/// DWB22's text gives the composite of weighted blended; its listing multiplies by the weight once more, which is not followed. The activation of
-/// its output is not stated; here it is a sigmoid, which keeps the weight in (0, 1).
+/// DWB22's text gives the composite of weighted blended; its listing multiplies by the weight once more, which is not
+/// followed. The activation of its output is not stated; here it is a sigmoid, which keeps the weight in (0, 1).
 ///
 /// # Source
-/// DWB22 Sec. 3.3: 3-10-8-1, ReLU, trained on Adst of Eq. 3.3 by Adam at 10^−4 on the mean squared error, batch 128, 150 epochs.
+/// DWB22 Sec. 3.3: 3-10-8-1, ReLU, trained on Adst of Eq. 3.3 by Adam at 10^−4 on the mean squared error, batch 128,
+/// 150 epochs.
 pub struct DeepWeightedBlended {
     network: Neural,
 }
@@ -220,7 +221,8 @@ mod tests {
         );
     }
 
-    /// A tiny training, from lists and from random pixels, beats the best constant, and its image that of a constant weight on pixels it never saw.
+    /// A tiny training, from lists and from random pixels, beats the best constant, and its image that of a constant
+    /// weight on pixels it never saw.
     #[test]
     fn our_own_toolchain_trains_it() {
         let Config {

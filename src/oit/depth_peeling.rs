@@ -9,13 +9,15 @@ use crate::pixel::{FragmentList, abuffer};
 /// The stem of its name on the command line, `depth-peeling:K`.
 pub const NAME: &str = "depth-peeling";
 
-/// K passes, each of which peels the nearest fragment that is left and blends it from front to back; the rest is dropped, and the background shows
-/// through the peeled layers alone. Of tied fragments the first of the input is peeled first, and none is lost.
+/// K passes, each of which peels the nearest fragment that is left and blends it from front to back; the rest is
+/// dropped, and the background shows through the peeled layers alone. Of tied fragments the first of the input is
+/// peeled first, and none is lost.
 ///
 /// Weights are the transmittance through the peeled layers, 0 for what is dropped.
 ///
 /// # Source
-/// Everitt, *Interactive Order-Independent Transparency*, NVIDIA 2001; blending from front to back as DWB22 Eq. 3.2–3.3.
+/// Everitt, *Interactive Order-Independent Transparency*, NVIDIA 2001; blending from front to back as DWB22 Eq.
+/// 3.2–3.3.
 #[derive(Debug, Clone, Copy)]
 pub struct DepthPeeling {
     /// Passes, K.

@@ -9,12 +9,12 @@ use crate::pixel::{FragmentList, abuffer};
 /// The stem of its name on the command line, `dual-depth-peeling:K`.
 pub const NAME: &str = "dual-depth-peeling";
 
-/// K passes, each of which peels the nearest and the farthest fragment that are left; after K passes what lies between is dropped. Front layers are
-/// blended from front to back, back layers from back to front, and the former over the latter over the background. Of tied fragments the first of
-/// the input counts as the nearer.
+/// K passes, each of which peels the nearest and the farthest fragment that are left; after K passes what lies between
+/// is dropped. Front layers are blended from front to back, back layers from back to front, and the former over the
+/// latter over the background. Of tied fragments the first of the input counts as the nearer.
 ///
-/// Weights are the transmittance through the peeled layers, 0 for what is dropped. The pass that finds the first depth range peels nothing and is
-/// not counted.
+/// Weights are the transmittance through the peeled layers, 0 for what is dropped. The pass that finds the first depth
+/// range peels nothing and is not counted.
 ///
 /// # Source
 /// Bavoil, Myers, *Order Independent Transparency with Dual Depth Peeling*, NVIDIA 2008; DWB22 Sec. 3.1.
@@ -48,7 +48,8 @@ impl Method for DualDepthPeeling {
         format!("{NAME}:{}", self.passes)
     }
 
-    /// Two depth ranges in RG32F, two targets of front colours and one of back colours, however many passes; one pass more finds the first range.
+    /// Two depth ranges in RG32F, two targets of front colours and one of back colours, however many passes; one pass
+    /// more finds the first range.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
             bits_per_pixel: Some(128),

@@ -36,7 +36,8 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     }
 }
 
-/// The density of absorbance over depth as a truncated Fourier series, integrated up to a depth; an integral that rings below nothing is nothing.
+/// The density of absorbance over depth as a truncated Fourier series, integrated up to a depth; an integral that rings
+/// below nothing is nothing.
 ///
 /// # Source
 /// J. Jansen, L. Bavoil, *Fourier opacity mapping*, I3D 2010.

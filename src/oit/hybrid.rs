@@ -10,11 +10,12 @@ use crate::pixel::{FragmentList, absorbance, abuffer};
 /// The stem of its name on the command line, `hybrid:K`.
 pub const NAME: &str = "hybrid";
 
-/// The K nearest fragments, the core, are blended from front to back; all others, the tail, take on their mean colour Σ a C/Σ a and let through
-/// what they all let through, e^−Σ A. The tail lies behind the core and before the background.
+/// The K nearest fragments, the core, are blended from front to back; all others, the tail, take on their mean colour Σ
+/// a C/Σ a and let through what they all let through, e^−Σ A. The tail lies behind the core and before the background.
 ///
-/// The composite is linear in the colours, and a fragment's weight is what it multiplies a C by: T in the core, T_core (1 − t)/Σ a in the tail,
-/// t what the tail lets through. Which of tied fragments is the nearer is decided by the input, as in the A-buffer's image.
+/// The composite is linear in the colours, and a fragment's weight is what it multiplies a C by: T in the core, T_core
+/// (1 − t)/Σ a in the tail, t what the tail lets through. Which of tied fragments is the nearer is decided by the
+/// input, as in the A-buffer's image.
 ///
 /// Pass 1 keeps depth and opacity of the core; pass 2 adds up colours of core and tail apart.
 ///
@@ -48,7 +49,8 @@ impl Method for Hybrid {
         format!("{NAME}:{}", self.core)
     }
 
-    /// A core fragment is a depth of 24 bits and an opacity of 8; b0 and Σ a are sums. Colours of core and tail are two accumulators.
+    /// A core fragment is a depth of 24 bits and an opacity of 8; b0 and Σ a are sums. Colours of core and tail are two
+    /// accumulators.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
             bits_per_pixel: Some((32 * self.core as u32).saturating_add(64)),

@@ -13,8 +13,8 @@ pub struct Layered<'a> {
 }
 
 impl<'a> Layered<'a> {
-    /// Runs `f` for every non-empty pixel on all cores: it fills in the weights of the pixel's fragments and returns what the pixel lets through of
-    /// the background. `S` is memory that it may use again from pixel to pixel.
+    /// Runs `f` for every non-empty pixel on all cores: it fills in the weights of the pixel's fragments and returns
+    /// what the pixel lets through of the background. `S` is memory that it may use again from pixel to pixel.
     pub fn of<S: Default>(
         list: &'a FragmentList,
         f: impl Fn(&mut S, Pixel<'_>, &mut [f64]) -> f64 + Send + Sync,
@@ -49,7 +49,8 @@ impl Accumulated for Layered<'_> {
     }
 }
 
-/// Colour of a pixel whose weights are taken as they are: C = Σ a w C + t C_bg, t what the pixel lets through of the background.
+/// Colour of a pixel whose weights are taken as they are: C = Σ a w C + t C_bg, t what the pixel lets through of the
+/// background.
 ///
 /// # Panics
 /// If the pixel has fragments and no colours.
@@ -65,7 +66,8 @@ pub fn composite_over(pixel: Pixel<'_>, weights: &[f64], behind: f64, background
     std::array::from_fn(|c| behind * background[c] + sum[c].value())
 }
 
-/// Blends some fragments of a pixel from front to back as if there were no others, which get weight 0; returns what they let through.
+/// Blends some fragments of a pixel from front to back as if there were no others, which get weight 0; returns what
+/// they let through.
 pub fn blend<'i>(pixel: Pixel<'_>, front_to_back: impl IntoIterator<Item = &'i u32>, out: &mut [f64]) -> f64 {
     out.fill(0.0);
     let mut in_front = 0.0;

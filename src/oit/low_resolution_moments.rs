@@ -41,8 +41,9 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 
 /// Four moments of blocks of N × N pixels, looked up with bilinear filtering.
 ///
-/// A block holds the mean of the moments of its pixels. Sha18 draws the low-resolution pass against the *greatest* opaque depth of the block, so that no fragment that some
-/// pixel of it shows is lost; a fragment list holds what each pixel shows, and the mean loses none of it either.
+/// A block holds the mean of the moments of its pixels. Sha18 draws the low-resolution pass against the *greatest*
+/// opaque depth of the block, so that no fragment that some pixel of it shows is lost; a fragment list holds what each
+/// pixel shows, and the mean loses none of it either.
 ///
 /// # Source
 /// Sha18 Sec. 4.1.

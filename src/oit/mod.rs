@@ -109,7 +109,8 @@ pub trait Accumulated: Send + Sync {
     }
 }
 
-/// Colour of a pixel from its fragments' transmittances: C = (1 − e^−b0)/Σ a T · Σ a C T + e^−b0 C_bg; the background alone where Σ a T is 0.
+/// Colour of a pixel from its fragments' transmittances: C = (1 − e^−b0)/Σ a T · Σ a C T + e^−b0 C_bg; the background
+/// alone where Σ a T is 0.
 ///
 /// # Source
 /// NMT24 Eq. 7.

@@ -110,8 +110,8 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
         )
     }
 
-    /// b_0..b_2N in f32 where nothing is rounded to 16 bits. Quantised moments are no sums that could be blended; one fragment after the other is
-    /// added to them (MKKP18 Sec. 4.3), or beside single precision sums (Sha18 Table 1).
+    /// b_0..b_2N in f32 where nothing is rounded to 16 bits. Quantised moments are no sums that could be blended; one
+    /// fragment after the other is added to them (MKKP18 Sec. 4.3), or beside single precision sums (Sha18 Table 1).
     fn capabilities(&self, own: bool) -> Capabilities {
         let m = M as u32;
         let of_sums = Capabilities::of_sums(m, own);

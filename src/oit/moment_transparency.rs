@@ -41,7 +41,8 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 /// Bias of moments of depths in [0, 1], in single precision.
 ///
 /// # Source
-/// Strength and target of moment shadow mapping (C. Peters, R. Klein, *Moment shadow mapping*, I3D 2015), on which Sha18 builds; Sha18 prints none.
+/// Strength and target of moment shadow mapping (C. Peters, R. Klein, *Moment shadow mapping*, I3D 2015), on which
+/// Sha18 builds; Sha18 prints none.
 pub(super) const BIAS: Bias = Bias {
     strength: 3e-7,
     target: [0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0],

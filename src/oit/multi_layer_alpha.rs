@@ -9,10 +9,11 @@ use crate::pixel::{FragmentList, Pixel, absorbance};
 /// The stem of its name on the command line, `multi-layer-alpha:K`.
 pub const NAME: &str = "multi-layer-alpha";
 
-/// K layers of (depth, colour, transmittance), sorted by depth. Fragments are inserted in the order of the input, behind layers of equal depth; when
-/// there are K + 1 layers, the last two become one at the nearer of their depths: (C1 + T1 C2, T1 T2). At the end the layers are blended from front
-/// to back. Nothing is lost, but fragments that come late and lie behind a merged layer are blended in the wrong place; the result depends on the
-/// order of the input unless K is at least the number of fragments.
+/// K layers of (depth, colour, transmittance), sorted by depth. Fragments are inserted in the order of the input,
+/// behind layers of equal depth; when there are K + 1 layers, the last two become one at the nearer of their depths:
+/// (C1 + T1 C2, T1 T2). At the end the layers are blended from front to back. Nothing is lost, but fragments that come
+/// late and lie behind a merged layer are blended in the wrong place; the result depends on the order of the input
+/// unless K is at least the number of fragments.
 ///
 /// The composite is linear in the colours, and a fragment's weight is what it multiplies a C by.
 ///
@@ -200,7 +201,8 @@ mod tests {
         }
     }
 
-    /// One colour over itself stays where nothing is clamped, and what passes through the pixel is exact, whatever was merged.
+    /// One colour over itself stays where nothing is clamped, and what passes through the pixel is exact, whatever was
+    /// merged.
     #[test]
     fn one_colour_stays() {
         let white = image(&MultiLayerAlpha { layers: 2 }, &painted(&scene(5), [1.0; 3]));

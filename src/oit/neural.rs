@@ -6,7 +6,7 @@ use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
 use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
 use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, MomentFrame, SumPrecision};
 use crate::model::kernel::Row;
-use crate::model::{Mlp, Tiled, file};
+use crate::model::{Mlp, Tiled, shipped};
 use crate::numeric::lanes::LANES;
 use crate::pixel::{FragmentList, abuffer};
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,8 @@ pub enum Skip {
     /// Those whose answer is used: the same transmittances to the bit.
     #[default]
     Exact,
-    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see [`visible`](crate::features::visible).
+    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see
+    /// [`visible`](crate::features::visible).
     Visible,
 }
 
@@ -79,7 +80,7 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     let path = arguments
         .argument
         .ok_or_else(|| arguments.wrong("expected the path of a model file"))?;
-    let mlp = file::load(Path::new(path)).map_err(|source| ParseError::Model {
+    let mlp = shipped::open(Path::new(path)).map_err(|source| ParseError::Model {
         name: arguments.name.to_owned(),
         source,
     })?;
@@ -112,8 +113,8 @@ impl Neural {
         Self { storage, ..self }
     }
 
-    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands for a prepass that has found each pixel's nearest
-    /// and farthest fragment.
+    /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands
+    /// for a prepass that has found each pixel's nearest and farthest fragment.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
         let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log {
             frame
@@ -150,7 +151,8 @@ impl Neural {
     /// `progress` is told how many fragments are done.
     ///
     /// # Errors
-    /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth range is none.
+    /// [`MethodError::Depth`] where camera planes are needed and unknown, a fragment lies outside them, or the depth
+    /// range is none.
     pub fn transmittance(
         &self,
         list: &FragmentList,
@@ -163,7 +165,8 @@ impl Neural {
 
     /// [`Self::transmittance`] with what decided each answer, and how long both passes took.
     ///
-    /// Recentred features are made in f32, sixteen at once ([`Passes`](crate::features::passes::Passes)); the others in f64, rounded to f32. The forward pass is f32.
+    /// Recentred features are made in f32, sixteen at once ([`Passes`](crate::features::passes::Passes)); the others in
+    /// f64, rounded to f32. The forward pass is f32.
     ///
     /// # Errors
     /// As [`Self::transmittance`].
@@ -219,7 +222,8 @@ impl Neural {
         Ok(answered)
     }
 
-    /// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for pixels that hardly show.
+    /// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for
+    /// pixels that hardly show.
     fn ask_all(
         &self,
         list: &FragmentList,
@@ -313,7 +317,8 @@ impl Method for Neural {
         )
     }
 
-    /// b0 and the moments, the number of fragments and both ends; the wide features of [`MomentFrame::Pixel`] need a prepass.
+    /// b0 and the moments, the number of fragments and both ends; the wide features of [`MomentFrame::Pixel`] need a
+    /// prepass.
     fn capabilities(&self) -> Capabilities {
         let set = self.mlp.feature_set();
         if set == FeatureSet::DeepWeightedBlended {
@@ -363,12 +368,14 @@ impl Accumulated for Answers<'_> {
 mod tests {
     use super::*;
     use crate::features::passes;
+    use crate::model::file;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
     use crate::oit;
     use crate::pixel::CameraPlanes;
 
-    /// Two fragments need no network, whatever it says; of five the ends do not, and all answers lie between the total transmittance and 1.
+    /// Two fragments need no network, whatever it says; of five the ends do not, and all answers lie between the total
+    /// transmittance and 1.
     #[test]
     fn what_is_known_is_not_asked() {
         let view_z = vec![2.0, 1.0, 4.0, 1.5, 2.5, 3.0, 7.0];
@@ -462,8 +469,9 @@ mod tests {
         }
     }
 
-    /// Adversarial pixels under networks that say anything: no channel is more than half a display step from the image in which hidden fragments are answered
-    /// exactly and all others by the network. Controls: answering them with 1 is; and some pixel is asked after all.
+    /// Adversarial pixels under networks that say anything: no channel is more than half a display step from the image
+    /// in which hidden fragments are answered exactly and all others by the network. Controls: answering them with 1
+    /// is; and some pixel is asked after all.
     #[test]
     fn what_is_skipped_cannot_be_seen() {
         let list = passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
@@ -536,8 +544,8 @@ mod tests {
         assert!(control > 0.05 && again > 0, "{control} {again}");
     }
 
-    /// The shipped network on the built-in scenes: what `visible` changes, against its own answers. Tolerances: 1/512 in a channel, 0.0005 of FLIP.
-    /// Control: the image of another network is farther.
+    /// The shipped network on the built-in scenes: what `visible` changes, against its own answers. Tolerances: 1/512
+    /// in a channel, 0.0005 of FLIP. Control: the image of another network is farther.
     #[test]
     fn built_in_scenes_look_the_same() {
         let load = |text: &str| file::from_json(text.as_bytes(), Path::new("m.json")).unwrap();
@@ -576,9 +584,10 @@ mod tests {
         }
     }
 
-    /// What moments of half resolution would do: b_1..b_4 of 2 x 2 pixels added up and scaled to each pixel's own b_0, beside its own n and ends, which is the best that may be hoped
-    /// for. The image MSE of the shipped network grows at least twofold on four of the six built-in scenes, so no renderer of ours does it. Control: moments of the pixel itself, put together in the same
-    /// way, give the usual image MSE to 5 %.
+    /// What moments of half resolution would do: b_1..b_4 of 2 x 2 pixels added up and scaled to each pixel's own b_0,
+    /// beside its own n and ends, which is the best that may be hoped for. The image MSE of the shipped network grows
+    /// at least twofold on four of the six built-in scenes, so no renderer of ours does it. Control: moments of the
+    /// pixel itself, put together in the same way, give the usual image MSE to 5 %.
     #[test]
     fn moments_of_half_resolution_lose_the_edges() {
         use crate::features::recentred::{FragmentTerms, Pass2Input, PixelSums, absorbance, moment_depth};

@@ -6,6 +6,7 @@ use super::{
     two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
+use crate::numeric::similar::suggestion;
 
 /// What a name says after its head.
 #[derive(Debug, Clone, Copy)]
@@ -114,7 +115,8 @@ impl MomentArguments<'_> {
 /// Most layers, nodes or passes that a method may be asked for.
 pub const MAX_LAYERS: usize = 1 << 16;
 
-/// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how to make one.
+/// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how
+/// to make one.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
     /// What stands before the colon.
@@ -156,12 +158,14 @@ const ENTRIES: &[&[Entry]] = &[
 #[derive(Debug, thiserror::Error)]
 pub enum ParseError {
     /// No method has this name.
-    #[error("there is no method '{name}'; known are {known}")]
+    #[error("there is no method '{name}'; known are {known}{suggestion}")]
     Unknown {
         /// What was asked for.
         name: String,
         /// Patterns of all names.
         known: String,
+        /// The name that was probably meant.
+        suggestion: String,
     },
     /// The part after the colon is wrong.
     #[error("{name}: {expected} after the colon, found {found}")]
@@ -214,6 +218,7 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
         None => Err(ParseError::Unknown {
             name: name.to_owned(),
             known: entries().map(|e| e.pattern).collect::<Vec<_>>().join(", "),
+            suggestion: suggestion(name, all_names().iter().map(String::as_str)),
         }),
     }
 }
@@ -297,7 +302,8 @@ mod tests {
         }
     }
 
-    /// Sharpe's bias pulls towards atoms at depths 0 and 1: a pixel with fragments at the ends only stays singular, and NaN.
+    /// Sharpe's bias pulls towards atoms at depths 0 and 1: a pixel with fragments at the ends only stays singular, and
+    /// NaN.
     fn published_singular(name: &str) -> bool {
         ["moment-transparency", "two-moment-passes", "low-resolution-moments"]
             .iter()
@@ -328,8 +334,8 @@ mod tests {
             .any(|head| name.starts_with(head))
     }
 
-    /// All methods on odd but valid lists: as many weights as fragments, finite and not negative where storage does not round, 1 where all is
-    /// clear; and a depth range that is none is refused by those that need one.
+    /// All methods on odd but valid lists: as many weights as fragments, finite and not negative where storage does not
+    /// round, 1 where all is clear; and a depth range that is none is refused by those that need one.
     #[test]
     fn odd_lists_are_answered() {
         let planes = crate::pixel::CameraPlanes::new(0.5, 10.0).unwrap();
@@ -376,7 +382,8 @@ mod tests {
         }
     }
 
-    /// With the own fragment removed the ends of every pixel are exact, to 1e-12 where nothing rounds, and so are pixels of two.
+    /// With the own fragment removed the ends of every pixel are exact, to 1e-12 where nothing rounds, and so are
+    /// pixels of two.
     #[test]
     fn own_answers_the_ends_exactly() {
         let list = image(64, 6);

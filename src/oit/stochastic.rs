@@ -14,16 +14,19 @@ pub const NAME: &str = "stochastic";
 /// What random streams of pixels are drawn for.
 const PURPOSE: u64 = 0x570c;
 
-/// S samples a pixel. A fragment of opacity a covers ⌊a S + ξ⌋ samples, ξ uniform in [0, 1), chosen at random; a sample keeps the nearest of the
-/// fragments that cover it. A fragment's visibility is the share of the samples whose kept fragment does not lie in front of it: T on average, and
-/// never a wrong total, since colours are normalised by the exact one.
+/// S samples a pixel. A fragment of opacity a covers ⌊a S + ξ⌋ samples, ξ uniform in [0, 1), chosen at random; a sample
+/// keeps the nearest of the fragments that cover it. A fragment's visibility is the share of the samples whose kept
+/// fragment does not lie in front of it: T on average, and never a wrong total, since colours are normalised by the
+/// exact one.
 ///
-/// The random numbers of a pixel belong to its fragments from front to back, so that the order of the input changes nothing.
+/// The random numbers of a pixel belong to its fragments from front to back, so that the order of the input changes
+/// nothing.
 ///
 /// It draws the geometry three times: total opacity, samples, colour.
 ///
 /// # Source
-/// Enderton, Sintorn, Shirley, Luebke, *Stochastic Transparency*, IEEE TVCG 17(8), 2011: depth-based, with alpha correction and stratified masks.
+/// Enderton, Sintorn, Shirley, Luebke, *Stochastic Transparency*, IEEE TVCG 17(8), 2011: depth-based, with alpha
+/// correction and stratified masks.
 #[derive(Debug, Clone, Copy)]
 pub struct Stochastic {
     /// Samples, S.
@@ -140,7 +143,8 @@ mod tests {
     use crate::oit::testing::*;
     use crate::pixel::abuffer;
 
-    /// Opacities that are whole numbers of samples cover exactly so many, so that one fragment in front needs no luck; an opaque one hides all.
+    /// Opacities that are whole numbers of samples cover exactly so many, so that one fragment in front needs no luck;
+    /// an opaque one hides all.
     #[test]
     fn two_fragments_by_hand() {
         let method = Stochastic { samples: 8 };
@@ -152,8 +156,9 @@ mod tests {
         assert_eq!(image(&method, &pixel(&[], &[], &[]))[0], WHITE);
     }
 
-    /// Visibility is T on average: over 4000 pixels of the same three fragments the mean of the last is within four standard errors of 1/4 (S = 4:
-    /// variance of two independent halves below 0.0625 each pixel). Control: it is not 1/2.
+    /// Visibility is T on average: over 4000 pixels of the same three fragments the mean of the last is within four
+    /// standard errors of 1/4 (S = 4: variance of two independent halves below 0.0625 each pixel). Control: it is not
+    /// 1/2.
     #[test]
     fn visibility_is_transmittance_on_average() {
         let n = 4000u64;

@@ -26,11 +26,13 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     }))
 }
 
-/// Two sets of four moments. In the second each absorbance is weighted by the transmittance in front of it as the first set tells it; the second set gives the
-/// fraction of absorbance in front of a depth, the first the total that it is a fraction of.
+/// Two sets of four moments. In the second each absorbance is weighted by the transmittance in front of it as the first
+/// set tells it; the second set gives the fraction of absorbance in front of a depth, the first the total that it is a
+/// fraction of.
 ///
 /// # Source
-/// Sha18 Sec. 4.4. The paper leaves the formula to a supplement that is not at hand; this reading shows what its Fig. 2 shows, too much shadow with two fragments.
+/// Sha18 Sec. 4.4. The paper leaves the formula to a supplement that is not at hand; this reading shows what its Fig. 2
+/// shows, too much shadow with two fragments.
 struct TwoMomentPasses;
 
 /// Both sets, b_0..b_4 each.

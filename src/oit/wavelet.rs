@@ -95,14 +95,15 @@ impl Coefficients {
 
 /// N = 2^(R+1) coefficients of the absorbance in front of a depth.
 ///
-/// With x = d (N − 1)/N, d the depth between the pixel's nearest and farthest fragment, in \[0, 1\], a fragment of absorbance A adds to one Haar
-/// coefficient a level p = 0..R, k = ⌊2^p x⌋, u = x − k/2^p: c\[2^p − 1 + k\] += A 2^(p/2) min(u, 2^−p − u); and to the mean c\[N − 1\] += A (1 − x).
-/// The absorbance in front, averaged over cell j of N, is F_j = c\[N − 1\] − Σ_p 2^(p/2) s_p c\[2^p − 1 + (j >> (R + 1 − p))\], s_p = 1 in the
-/// first half of the level's interval and −1 in the second. Between cells it is interpolated, from the cell in front:
-/// T = exp(−lerp(F_{j−1}, F_j, frac(N x))), F_{−1} = 0. No fragment reaches the last cell, so that F_{N−1} is the total.
+/// With x = d (N − 1)/N, d the depth between the pixel's nearest and farthest fragment, in \[0, 1\], a fragment of
+/// absorbance A adds to one Haar coefficient a level p = 0..R, k = ⌊2^p x⌋, u = x − k/2^p: c\[2^p − 1 + k\] += A
+/// 2^(p/2) min(u, 2^−p − u); and to the mean c\[N − 1\] += A (1 − x). The absorbance in front, averaged over cell j of
+/// N, is F_j = c\[N − 1\] − Σ_p 2^(p/2) s_p c\[2^p − 1 + (j >> (R + 1 − p))\], s_p = 1 in the first half of the level's
+/// interval and −1 in the second. Between cells it is interpolated, from the cell in front: T = exp(−lerp(F_{j−1}, F_j,
+/// frac(N x))), F_{−1} = 0. No fragment reaches the last cell, so that F_{N−1} is the total.
 ///
-/// A fragment's own event is taken out before it is answered, as published implementations do. d is linear; with `+own` it is logarithmic, answers
-/// stay between e^−others and 1, and the ends of a pixel are exact.
+/// A fragment's own event is taken out before it is answered, as published implementations do. d is linear; with `+own`
+/// it is logarithmic, answers stay between e^−others and 1, and the ends of a pixel are exact.
 ///
 /// It draws the geometry three times: depth range, coefficients, colour.
 ///
@@ -304,7 +305,8 @@ mod tests {
             .sum()
     }
 
-    /// F_j is the mean of the step function over cell j, and the last one the total: both to 1e-12. Control: one coefficient wrong by 1e-6.
+    /// F_j is the mean of the step function over cell j, and the last one the total: both to 1e-12. Control: one
+    /// coefficient wrong by 1e-6.
     #[test]
     fn cells_are_means_of_the_step_function() {
         for rank in 1..=MAX_RANK {
@@ -338,14 +340,15 @@ mod tests {
         }
     }
 
-    /// By hand, rank 1 (cells of a quarter): fragments at d = 0, 1/2, 1 lie at x = 0, 3/8, 3/4. In front of the middle one, without itself, stands
-    /// the first alone; the farthest, without itself, has F_2 in front, which both have entered entirely.
+    /// By hand, rank 1 (cells of a quarter): fragments at d = 0, 1/2, 1 lie at x = 0, 3/8, 3/4. In front of the middle
+    /// one, without itself, stands the first alone; the farthest, without itself, has F_2 in front, which both have
+    /// entered entirely.
     #[test]
     fn three_fragments_by_hand() {
         let list = pixel(&[1.0, 2.0, 3.0], &[0.5; 3], &[[0.0; 3]; 3]);
         assert_close(&weights(&wavelet(1, false), &list), &[1.0, 0.5, 0.25]);
-        // Two near the middle, x = 3/8 and 9/16: in front of the second lies lerp(F_1, F_2, 1/4) of the nearest's ln 2, whole in both cells, and of
-        // the other's, half of cell 1 and all of cell 2: 1/2 + 1/8.
+        // Two near the middle, x = 3/8 and 9/16: in front of the second lies lerp(F_1, F_2, 1/4) of the nearest's ln 2,
+        // whole in both cells, and of the other's, half of cell 1 and all of cell 2: 1/2 + 1/8.
         let list = pixel(&[1.0, 2.0, 2.5, 3.0], &[0.5; 4], &[[0.0; 3]; 4]);
         let found = weights(&wavelet(1, false), &list);
         assert_close(&[found[2]], &[0.5f64.powf(1.0 + 0.5 + 0.125)]);
@@ -365,7 +368,8 @@ mod tests {
         }
     }
 
-    /// The more coefficients, the smaller the error; f32 changes little, f16 more. The control of order: coefficients in f16 round with it.
+    /// The more coefficients, the smaller the error; f32 changes little, f16 more. The control of order: coefficients
+    /// in f16 round with it.
     #[test]
     fn rank_and_storage() {
         let list = untied(3);

@@ -10,7 +10,8 @@ pub const NAME: &str = "weighted-average";
 
 /// C = Σ a C/Σ a · (1 − (1 − ā)^n) + (1 − ā)^n C_bg with ā = Σ a/n; the background alone where Σ a is 0.
 ///
-/// Exact for one fragment and for fragments of one colour and one opacity. Opacities are taken as they are, without the clamp of the absorbance.
+/// Exact for one fragment and for fragments of one colour and one opacity. Opacities are taken as they are, without the
+/// clamp of the absorbance.
 ///
 /// # Source
 /// Bavoil, Myers, *Order Independent Transparency with Dual Depth Peeling*, NVIDIA 2008; as MB13 Sec. 2 restates it.

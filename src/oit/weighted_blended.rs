@@ -1,4 +1,5 @@
-//! McGuire and Bavoil's weighted blended transparency: a fixed function of depth and opacity stands in for the transmittance.
+//! McGuire and Bavoil's weighted blended transparency: a fixed function of depth and opacity stands in for the
+//! transmittance.
 
 use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
@@ -31,18 +32,18 @@ pub enum Weight {
     ///
     /// MB13 Eq. 10, DWB22 Eq. 3.8.
     Mb13Eq10,
-    /// a · max(10^−2, min(8, 0.3·10^5 + (1 − z/200)^4)) as printed. The second term of `min` is never below 30000, so that the weight is the
-    /// constant 8a, and is computed as that.
+    /// a · max(10^−2, min(8, 0.3·10^5 + (1 − z/200)^4)) as printed. The second term of `min` is never below 30000, so
+    /// that the weight is the constant 8a, and is computed as that.
     ///
     /// DWB22 Eq. 3.10.
     Dwb22,
-    /// a · max(10^−2, min(8, 0.3·10^−5 + (1 − z/200)^4)): the same with the exponent's sign, which seems lost in print. It falls with depth up to
-    /// z = 200 and rises beyond.
+    /// a · max(10^−2, min(8, 0.3·10^−5 + (1 − z/200)^4)): the same with the exponent's sign, which seems lost in print.
+    /// It falls with depth up to z = 200 and rises beyond.
     ///
     /// DWB22 Eq. 3.10, our reading.
     Dwb22Small,
-    /// a · max(10^−2, min(1, 0.3/(10^−5 + ((1 − z)/200)^4))): what the shader computes, whose last clamp makes the 8 ineffective. It is the
-    /// constant a up to z = 149.
+    /// a · max(10^−2, min(1, 0.3/(10^−5 + ((1 − z)/200)^4))): what the shader computes, whose last clamp makes the 8
+    /// ineffective. It is the constant a up to z = 149.
     ///
     /// DWB22 App. B.2.
     Dwb22Shader,
@@ -104,8 +105,8 @@ pub enum DepthScale {
     /// 1: the scene's own units.
     #[default]
     Units,
-    /// The power of √2, from 2^−12 to 2^12, whose image comes nearest to the A-buffer's over at most 4096 pixels of the list: no renderer can know
-    /// it, and no fixed choice does better by more than the step.
+    /// The power of √2, from 2^−12 to 2^12, whose image comes nearest to the A-buffer's over at most 4096 pixels of the
+    /// list: no renderer can know it, and no fixed choice does better by more than the step.
     Best,
 }
 
@@ -259,8 +260,8 @@ mod tests {
         }
     }
 
-    /// The same depths in another unit leave the best scale's image as it was, to the step of a factor √2; in fixed units they change it. And the best
-    /// is never worse than any of the scales that are tried: here that of the units.
+    /// The same depths in another unit leave the best scale's image as it was, to the step of a factor √2; in fixed
+    /// units they change it. And the best is never worse than any of the scales that are tried: here that of the units.
     #[test]
     fn the_best_scale_knows_no_units() {
         let list = untied(6);
@@ -345,7 +346,8 @@ mod tests {
         assert_close(&image(&blended(Weight::Dwb22), &two())[0], &[0.625, 0.625, 0.25]);
     }
 
-    /// The composite is normalised: one colour stays, however wrong the weights; and what the pixel lets through is exact.
+    /// The composite is normalised: one colour stays, however wrong the weights; and what the pixel lets through is
+    /// exact.
     #[test]
     fn one_colour_stays_and_order_never_matters() {
         let list = scene(3);

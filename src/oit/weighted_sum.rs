@@ -10,7 +10,8 @@ use crate::pixel::{FragmentList, Pixel};
 /// Its name on the command line.
 pub const NAME: &str = "weighted-sum";
 
-/// C = Σ a C + (1 − Σ a) C_bg: exact for one fragment, and out of range (light taken from the background that was never there) once Σ a exceeds 1.
+/// C = Σ a C + (1 − Σ a) C_bg: exact for one fragment, and out of range (light taken from the background that was never
+/// there) once Σ a exceeds 1.
 ///
 /// # Source
 /// Meshkin, *Sort-Independent Alpha Blending*, GDC 2007; as MB13 Sec. 2 restates it.

@@ -57,9 +57,12 @@ pub enum DepthError {
 
 /// The clipping planes of a perspective camera [scene units].
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CameraPlanes {
+    /// Near plane, > 0 [scene units].
     near: f32,
+    /// Far plane, beyond the near one [scene units].
     far: f32,
 }
 

@@ -1,10 +1,11 @@
 //! What a fragment list holds: histograms, and how many fragments each rule answers.
 
 use super::{ProfileError, Scene};
+use crate::chart::histogram::{self, Panel};
 use crate::features::passes::{Class, Silent};
 use crate::features::{Extractor, FeatureSet};
 use crate::oit::neural::Skip;
-use crate::pixel::{ViewZ, absorbance, abuffer};
+use crate::pixel::{FragmentList, ViewZ, absorbance, abuffer};
 use serde::Serialize;
 
 /// Sides of a tile that an indirect dispatch would take or leave \[pixels\].
@@ -79,10 +80,96 @@ impl Histogram {
     }
 }
 
-/// A kind of fragment.
+/// How a fragment is answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Alone in its pixel.
+    Single,
+    /// One of two.
+    OneOfTwo,
+    /// The nearest of three and more.
+    Nearest,
+    /// The farthest of three and more.
+    Farthest,
+    /// Nothing else in its pixel absorbs.
+    Alone,
+    /// The middle one of three.
+    OneOfThree,
+    /// One of the two in the middle of four.
+    OneOfFour,
+    /// Its pixel is too faint to be seen.
+    Faint,
+    /// What lies in front of it hides it.
+    Hidden,
+    /// The network answers it.
+    Network,
+}
+
+impl Kind {
+    /// All of them, in the order in which they are shown.
+    pub const ALL: [Self; 10] = [
+        Self::Single,
+        Self::OneOfTwo,
+        Self::Nearest,
+        Self::Farthest,
+        Self::Alone,
+        Self::OneOfThree,
+        Self::OneOfFour,
+        Self::Faint,
+        Self::Hidden,
+        Self::Network,
+    ];
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Single => "one in its pixel",
+            Self::OneOfTwo => "one of two",
+            Self::Nearest => "nearest",
+            Self::Farthest => "farthest",
+            Self::Alone => "nothing else in its pixel absorbs",
+            Self::OneOfThree => "one of three",
+            Self::OneOfFour => "one of four",
+            Self::Faint => "of a faint pixel",
+            Self::Hidden => "hidden",
+            Self::Network => "the rest",
+        }
+    }
+
+    /// What answers it.
+    pub fn answer(self) -> &'static str {
+        match self {
+            Self::Single | Self::OneOfTwo | Self::Nearest | Self::Farthest | Self::Alone => "exact",
+            Self::OneOfThree | Self::OneOfFour => "closed form",
+            Self::Faint | Self::Hidden => "bound, under visible",
+            Self::Network => "network",
+        }
+    }
+
+    /// The kind of a fragment of a pixel of so many.
+    fn of(count: usize, class: Class) -> Self {
+        match (count, class) {
+            (1, _) => Self::Single,
+            (2, _) => Self::OneOfTwo,
+            (_, Class::Nearest) => Self::Nearest,
+            (_, Class::Farthest) => Self::Farthest,
+            (_, Class::Alone) => Self::Alone,
+            (_, Class::Three) => Self::OneOfThree,
+            (_, Class::Four) => Self::OneOfFour,
+            (_, Class::Faint) => Self::Faint,
+            (_, Class::Hidden) => Self::Hidden,
+            (_, Class::Known | Class::Network) => Self::Network,
+        }
+    }
+}
+
+/// How many fragments are of a kind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Share {
     /// Which.
+    #[serde(skip)]
+    pub kind: Kind,
+    /// Its name.
     pub class: &'static str,
     /// How it is answered.
     pub answer: &'static str,
@@ -142,6 +229,29 @@ pub struct Facts {
     pub tiles: Option<Tiles>,
 }
 
+impl Facts {
+    /// Fragments of a kind, as a share of all.
+    pub fn share(&self, kind: Kind) -> f64 {
+        self.classes.iter().find(|c| c.kind == kind).map_or(0.0, |c| c.share)
+    }
+
+    /// The histograms of the scene and, below them, how every fragment is answered, as an SVG file.
+    pub fn drawing(&self, title: &str) -> String {
+        let panel = |h: &Histogram| Panel {
+            title: format!("{}, % of {}", h.quantity, h.of),
+            edges: h.edges.clone(),
+            counts: h.counts.clone(),
+        };
+        let share = |class: &Share| histogram::Share {
+            label: format!("{}: {:.1} % ({})", class.class, 100.0 * class.share, class.answer),
+            share: class.share,
+        };
+        let panels: Vec<Panel> = self.histograms.iter().map(panel).collect();
+        let shares: Vec<histogram::Share> = self.classes.iter().map(share).collect();
+        histogram::svg(title, &panels, "How every fragment is answered", &shares)
+    }
+}
+
 /// Looks a list over.
 ///
 /// # Errors
@@ -167,6 +277,52 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
     drop(out);
 
     let covered: Vec<usize> = (0..list.pixels()).filter(|&p| !list.range(p).is_empty()).collect();
+    let histograms = histograms(scene, &covered);
+    let (mut counts, mut behind_opaque) = ([0u64; 10], 0u64);
+    let mut order = Vec::new();
+    for &p in &covered {
+        let (pixel, own) = (list.pixel(p), list.range(p));
+        for &class in &class[own] {
+            counts[Kind::of(pixel.len(), class) as usize] += 1;
+        }
+        abuffer::front_to_back(pixel, &mut order);
+        let opaque = order
+            .iter()
+            .map(|&i| i as usize)
+            .find(|&i| absorbance(pixel.alpha[i]) >= OPAQUE)
+            .map(|i| pixel.view_z[i]);
+        behind_opaque += opaque.map_or(0, |v| pixel.view_z.iter().filter(|&&w| w > v).count() as u64);
+    }
+    let share = |n: u64| n as f64 / list.len().max(1) as f64;
+    let classes = Kind::ALL
+        .into_iter()
+        .zip(counts)
+        .map(|(kind, n)| Share {
+            kind,
+            class: kind.name(),
+            answer: kind.answer(),
+            fragments: n,
+            share: share(n),
+        })
+        .collect();
+    let tiles = list.size().map(|size| tiles(list, size, &class));
+    Ok(Facts {
+        pixels: list.pixels() as u64,
+        empty_pixels: 1.0 - covered.len() as f64 / list.pixels().max(1) as f64,
+        fragments: list.len() as u64,
+        depth_complexity: list.depth_complexity() as u64,
+        depth_range: list.depth_range(),
+        histograms,
+        classes,
+        behind_opaque: share(behind_opaque),
+        unseen: share(scene.transmittance.iter().filter(|&&t| t < UNSEEN).count() as u64),
+        tiles,
+    })
+}
+
+/// Fragments, alpha, absorbance and depth range, over the pixels that hold something.
+fn histograms(scene: &Scene<'_>, covered: &[usize]) -> Vec<Histogram> {
+    let list = scene.list;
     let total = |p: usize| list.pixel(p).alpha.iter().map(|&a| absorbance(a)).sum::<f64>();
     let range = scene.context.depth_range.or(list.depth_range());
     let warp = range.and_then(|(a, b)| crate::pixel::LogWarp::new(ViewZ(a.into()), ViewZ(b.into())).ok());
@@ -186,7 +342,7 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             .map(|e| 10f64.powf(0.5 * f64::from(e)))
             .collect::<Vec<_>>()
     };
-    let histograms = vec![
+    vec![
         Histogram::of(
             "fragments",
             "covered pixels",
@@ -213,99 +369,39 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
             decades(-6, 0),
             several.iter().map(|&p| half(p)).collect(),
         ),
-    ];
+    ]
+}
 
-    let (mut counts, mut behind_opaque) = ([0u64; 10], 0u64);
-    let mut order = Vec::new();
-    for &p in &covered {
-        let (pixel, own) = (list.pixel(p), list.range(p));
-        for &class in &class[own] {
-            counts[match (pixel.len(), class) {
-                (1, _) => 0,
-                (2, _) => 1,
-                (_, Class::Nearest) => 2,
-                (_, Class::Farthest) => 3,
-                (_, Class::Alone) => 4,
-                (_, Class::Three) => 5,
-                (_, Class::Four) => 6,
-                (_, Class::Faint) => 7,
-                (_, Class::Hidden) => 8,
-                (_, Class::Known | Class::Network) => 9,
-            }] += 1;
-        }
-        abuffer::front_to_back(pixel, &mut order);
-        let opaque = order
-            .iter()
-            .map(|&i| i as usize)
-            .find(|&i| absorbance(pixel.alpha[i]) >= OPAQUE)
-            .map(|i| pixel.view_z[i]);
-        behind_opaque += opaque.map_or(0, |v| pixel.view_z.iter().filter(|&&w| w > v).count() as u64);
-    }
-    const NAMES: [(&str, &str); 10] = [
-        ("one in its pixel", "exact"),
-        ("one of two", "exact"),
-        ("nearest", "exact"),
-        ("farthest", "exact"),
-        ("nothing else in its pixel absorbs", "exact"),
-        ("one of three", "closed form"),
-        ("one of four", "closed form"),
-        ("of a faint pixel", "bound, under visible"),
-        ("hidden", "bound, under visible"),
-        ("the rest", "network"),
-    ];
-    let share = |n: u64| n as f64 / list.len().max(1) as f64;
-    let classes = NAMES
-        .into_iter()
-        .zip(counts)
-        .map(|((class, answer), n)| Share {
-            class,
-            answer,
-            fragments: n,
-            share: share(n),
-        })
-        .collect();
-    let tiles = list.size().map(|(width, height)| {
-        let mut tiles = Tiles {
-            tiles: 0,
-            empty: 0,
-            known: 0,
-            known_or_unseen: 0,
-        };
-        for (y, x) in (0..height)
-            .step_by(TILE as usize)
-            .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
+/// The tiles of an image by what they need; `class` is of each fragment.
+fn tiles(list: &FragmentList, (width, height): (u32, u32), class: &[Class]) -> Tiles {
+    let mut tiles = Tiles {
+        tiles: 0,
+        empty: 0,
+        known: 0,
+        known_or_unseen: 0,
+    };
+    for (y, x) in (0..height)
+        .step_by(TILE as usize)
+        .flat_map(|y| (0..width).step_by(TILE as usize).map(move |x| (y, x)))
+    {
+        let (mut fragments, mut evaluated, mut shown) = (0, 0, 0);
+        for p in (y..height.min(y + TILE))
+            .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
         {
-            let (mut fragments, mut evaluated, mut shown) = (0, 0, 0);
-            for p in (y..height.min(y + TILE))
-                .flat_map(|y| (x..width.min(x + TILE)).map(move |x| y as usize * width as usize + x as usize))
-            {
-                let of = &class[list.range(p)];
-                fragments += of.len();
-                evaluated += of
-                    .iter()
-                    .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
-                    .count();
-                shown += of.iter().filter(|c| matches!(c, Class::Network)).count();
-            }
-            tiles.tiles += 1;
-            tiles.empty += u64::from(fragments == 0);
-            tiles.known += u64::from(fragments > 0 && evaluated == 0);
-            tiles.known_or_unseen += u64::from(fragments > 0 && shown == 0);
+            let of = &class[list.range(p)];
+            fragments += of.len();
+            evaluated += of
+                .iter()
+                .filter(|c| matches!(c, Class::Network | Class::Faint | Class::Hidden))
+                .count();
+            shown += of.iter().filter(|c| matches!(c, Class::Network)).count();
         }
-        tiles
-    });
-    Ok(Facts {
-        pixels: list.pixels() as u64,
-        empty_pixels: 1.0 - covered.len() as f64 / list.pixels().max(1) as f64,
-        fragments: list.len() as u64,
-        depth_complexity: list.depth_complexity() as u64,
-        depth_range: list.depth_range(),
-        histograms,
-        classes,
-        behind_opaque: share(behind_opaque),
-        unseen: share(scene.transmittance.iter().filter(|&&t| t < UNSEEN).count() as u64),
-        tiles,
-    })
+        tiles.tiles += 1;
+        tiles.empty += u64::from(fragments == 0);
+        tiles.known += u64::from(fragments > 0 && evaluated == 0);
+        tiles.known_or_unseen += u64::from(fragments > 0 && shown == 0);
+    }
+    tiles
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 pub mod facts;
 pub mod network;
-pub mod plot;
 pub mod recommend;
 pub mod simplify;
 pub mod skip;
@@ -13,12 +12,11 @@ pub use network::{Networked, look_into};
 pub use recommend::{Recommendation, recommend};
 
 use crate::evaluate::{EvaluateError, Image, Truth, image};
-use crate::model::{Mlp, ModelError, ShapeError, file};
+use crate::model::{self, Mlp, ShapeError};
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{self, Context, MethodError};
 use crate::pixel::{DepthError, FragmentList, abuffer};
 use rayon::prelude::*;
-use std::path::Path;
 
 /// Why a scene could not be profiled, or a network not be fitted to it.
 #[derive(Debug, thiserror::Error)]
@@ -144,21 +142,10 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The networks that come with the program.
-///
-/// # Errors
-/// [`ModelError`] where they are damaged, which a test rules out.
-pub fn shipped() -> Result<Vec<Mlp>, ModelError> {
-    let texts = [
-        include_str!("../../models/recommended.json"),
-        include_str!("../../models/small.json"),
-        include_str!("../../models/moments-6.json"),
-        include_str!("../../models/paper.json"),
-    ];
-    texts
-        .into_iter()
-        .map(|text| file::from_json(text.as_bytes(), Path::new("a network of this program")))
-        .collect()
+/// The networks that a scene is profiled with by default.
+pub fn default_networks() -> Vec<Mlp> {
+    let names = ["recommended", "small", "moments-6", "paper"];
+    names.into_iter().filter_map(model::shipped::named).collect()
 }
 
 /// The middle of some samples, the mean of the two in the middle where their number is even; NaN of none.
@@ -177,8 +164,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shipped_networks_are_whole() {
-        let names: Vec<String> = shipped().unwrap().iter().map(|m| m.name().to_owned()).collect();
+    fn profiles_look_into_four_networks() {
+        let names: Vec<String> = default_networks().iter().map(|m| m.name().to_owned()).collect();
         assert_eq!(names, ["recommended", "small", "moments-6", "paper"]);
     }
 

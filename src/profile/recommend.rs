@@ -1,6 +1,6 @@
 //! What to run on a scene: the smallest network that keeps an error, in words and as a configuration.
 
-use super::facts::Facts;
+use super::facts::{Facts, Kind};
 use super::network::Networked;
 use crate::features::SumPrecision;
 use serde::Serialize;
@@ -55,108 +55,44 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
         .filter(|&(_, e)| e <= target)
         .min_by_key(|&(i, _)| cost(i));
     let chosen = keeping.or(least);
-    let share = |class: &str| facts.classes.iter().find(|c| c.class == class).map_or(0.0, |c| c.share);
-    let (network, faint, hidden) = (share("the rest"), share("of a faint pixel"), share("hidden"));
-    let evaluated = [network + faint + hidden, network];
-    let mut words = Vec::new();
-    words.push(format!(
-        "{} of the pixels are empty. Of the fragments {} need no network: {} are nearest, farthest or one of two, {} follow in closed form.",
-        percent(facts.empty_pixels),
-        percent(1.0 - evaluated[0]),
-        percent(1.0 - evaluated[0] - share("one of three") - share("one of four")),
-        percent(share("one of three") + share("one of four")),
-    ));
-    if faint + hidden > 0.005 {
-        words.push(format!(
-            "{} more cannot be seen: use --skip visible.",
-            percent(faint + hidden)
-        ));
-    } else {
-        words.push(format!(
-            "Hardly anything ({}) is provably invisible: --skip exact is enough.",
-            percent(faint + hidden)
-        ));
-    }
-    if facts.unseen > 0.05 {
-        words.push(format!(
-            "{} of the fragments lie where less than 1/1024 of the light passes; order-independent bounds find {} of all. What lies behind opaque surfaces is best never rasterised: draw those first.",
-            percent(facts.unseen),
-            percent(hidden)
-        ));
-    }
+    let evaluated = evaluated(facts);
+    let mut words = scene_in_words(facts);
     let (mut storage, mut bits, mut moments) = (SumPrecision::F32, 0, 0);
     let mut per_fragment = [0.0; 2];
     match chosen {
         None => words.push("No network was judged on this scene.".to_owned()),
         Some((i, error)) => {
             let n = &networks[i];
-            let kind = if n.image_mse.is_some() { "image MSE" } else { "T-MSE" };
-            let found = format!(
-                "{} ({}, {} multiply-adds, {} moments) has an {kind} of {error:.3e}",
-                n.model, n.network, n.multiply_adds, n.moments
-            );
-            words.push(match keeping {
-                Some(_) => format!(
-                    "{found}: the smallest of {} that stays within {target:.3e}.",
-                    judged.len()
-                ),
-                None => format!(
-                    "{found}: the least of {}, and more than the {target:.3e} that was to be kept.",
-                    judged.len()
-                ),
-            });
+            words.push(choice_in_words(n, error, target, keeping.is_some(), judged.len()));
             (bits, moments) = (n.bits_per_pixel, n.moments);
-            let allowed = target.max(error);
-            if let Some(s) = n
-                .stored
-                .iter()
-                .filter(|s| s.error <= allowed)
-                .min_by(|a, b| a.error.total_cmp(&b.error))
-            {
-                (storage, bits) = (s.storage, s.bits_per_pixel);
-                words.push(format!(
-                    "Moments may be stored in 16 bits ({}): the error becomes {:.3e}, and a pixel takes {} bits instead of {}.",
-                    name_of(s.storage),
-                    s.error,
-                    s.bits_per_pixel,
-                    n.bits_per_pixel
-                ));
-            } else if let Some(s) = n.stored.iter().min_by(|a, b| a.error.total_cmp(&b.error)) {
-                words.push(format!(
-                    "Keep moments in f32: in 16 bits the error would be {:.3e} at best ({}).",
-                    s.error,
-                    name_of(s.storage)
-                ));
+            let best = n.stored.iter().min_by(|a, b| a.error.total_cmp(&b.error));
+            if let Some(s) = best {
+                if s.error <= target.max(error) {
+                    (storage, bits) = (s.storage, s.bits_per_pixel);
+                    words.push(format!(
+                        "Moments may be stored in 16 bits ({}): the error becomes {:.2e}, and a pixel takes {} bits instead of {}.",
+                        name_of(s.storage),
+                        s.error,
+                        s.bits_per_pixel,
+                        n.bits_per_pixel
+                    ));
+                } else {
+                    words.push(format!(
+                        "Keep moments in f32: in 16 bits the error would be {:.2e} at best ({}).",
+                        s.error,
+                        name_of(s.storage)
+                    ));
+                }
             }
             per_fragment = evaluated.map(|share| share * n.multiply_adds as f64);
             words.push(format!(
                 "It costs {:.0} multiply-adds a fragment on average under exact, {:.0} under visible, {} without skipping.",
                 per_fragment[0], per_fragment[1], n.multiply_adds
             ));
-            let dead: usize = n.layers.iter().map(|l| l.never.len()).sum();
-            let constant: Vec<&str> = n.columns.iter().filter(|c| c.is_constant()).map(|c| c.name).collect();
-            if dead > 0 {
-                words.push(format!(
-                    "{dead} of its units never fire on this scene: nmt profile --simplify takes them out."
-                ));
-            }
-            if !constant.is_empty() {
-                words.push(format!(
-                    "Its features {} are constant on this scene.",
-                    constant.join(", ")
-                ));
-            }
+            words.extend(idle_in_words(n));
         }
     }
-    if let Some(tiles) = &facts.tiles {
-        words.push(format!(
-            "{} of the {} tiles of 8 x 8 pixels need no network ({} are empty, {} hold only what is known): an indirect dispatch would leave them out.",
-            percent(tiles.saved(crate::oit::neural::Skip::Exact)),
-            tiles.tiles,
-            percent(tiles.empty as f64 / tiles.tiles.max(1) as f64),
-            percent(tiles.known as f64 / tiles.tiles.max(1) as f64)
-        ));
-    }
+    words.extend(tiles_in_words(facts));
     let hidden_sizes = chosen.map_or(vec![16, 8], |(i, _)| {
         networks[i]
             .network
@@ -182,6 +118,88 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
         words,
         config: config(facts, features, &hidden_sizes, storage),
     }
+}
+
+/// Shares of the fragments that the network answers, under `exact` and under `visible`.
+fn evaluated(facts: &Facts) -> [f64; 2] {
+    let network = facts.share(Kind::Network);
+    [network + facts.share(Kind::Faint) + facts.share(Kind::Hidden), network]
+}
+
+/// What the scene's fragments need.
+fn scene_in_words(facts: &Facts) -> Vec<String> {
+    let [exact, visible] = evaluated(facts);
+    let closed = facts.share(Kind::OneOfThree) + facts.share(Kind::OneOfFour);
+    let mut words = vec![format!(
+        "{} of the pixels are empty. Of the fragments {} need no network: {} are nearest, farthest or one of two, {} follow \
+         in closed form.",
+        percent(facts.empty_pixels),
+        percent(1.0 - exact),
+        percent(1.0 - exact - closed),
+        percent(closed),
+    )];
+    let unseen = percent(exact - visible);
+    words.push(if exact - visible > 0.005 {
+        format!("{unseen} more cannot be seen: use --skip visible.")
+    } else {
+        format!("Hardly anything ({unseen}) is provably invisible: --skip exact is enough.")
+    });
+    if facts.unseen > 0.05 {
+        words.push(format!(
+            "{} of the fragments lie where less than 1/1024 of the light passes; order-independent bounds find {} of all. \
+             What lies behind opaque surfaces is best never rasterised: draw those first.",
+            percent(facts.unseen),
+            percent(facts.share(Kind::Hidden))
+        ));
+    }
+    words
+}
+
+/// Which network, and why.
+fn choice_in_words(n: &Networked, error: f64, target: f64, keeps: bool, judged: usize) -> String {
+    let kind = if n.image_mse.is_some() { "image MSE" } else { "T-MSE" };
+    let found = format!(
+        "{} ({}, {} multiply-adds, {} moments) has an {kind} of {error:.2e}",
+        n.model, n.network, n.multiply_adds, n.moments
+    );
+    if keeps {
+        format!("{found}: the smallest of {judged} that stays within {target:.2e}.")
+    } else {
+        format!("{found}: the least of {judged}, and more than the {target:.2e} that was to be kept.")
+    }
+}
+
+/// What of the network does nothing on this scene.
+fn idle_in_words(n: &Networked) -> Vec<String> {
+    let mut words = Vec::new();
+    let silent: usize = n.layers.iter().map(|l| l.never.len()).sum();
+    if silent > 0 {
+        words.push(format!(
+            "{silent} of its units never fire on this scene: nmt profile --simplify takes them out."
+        ));
+    }
+    let constant: Vec<&str> = n.columns.iter().filter(|c| c.is_constant()).map(|c| c.name).collect();
+    if !constant.is_empty() {
+        words.push(format!(
+            "Its features {} are constant on this scene.",
+            constant.join(", ")
+        ));
+    }
+    words
+}
+
+/// Tiles that an indirect dispatch would leave out.
+fn tiles_in_words(facts: &Facts) -> Option<String> {
+    let tiles = facts.tiles.as_ref()?;
+    let share = |n: u64| percent(n as f64 / tiles.tiles.max(1) as f64);
+    Some(format!(
+        "{} of the {} tiles of 8 x 8 pixels need no network ({} are empty, {} hold only what is known): an indirect dispatch \
+         would leave them out.",
+        percent(tiles.saved(crate::oit::neural::Skip::Exact)),
+        tiles.tiles,
+        share(tiles.empty),
+        share(tiles.known)
+    ))
 }
 
 fn name_of(storage: SumPrecision) -> &'static str {
@@ -212,15 +230,18 @@ fn config(facts: &Facts, features: &str, hidden: &[usize], storage: SumPrecision
     };
     let law = |depth: &str, alpha_law: &str| {
         format!(
-            "[[synth.pixels]]\nweight = 1\nfragments = {{ min = {}, max = {}, law = \"log-uniform\" }}\ndepth = {depth}\nalpha = {{ law = \"{alpha_law}\", min = {:e}, max = {:e} }}\nrange = {{ half = {{ min = {:e}, max = {:e} }} }}\n\n",
+            "[[synth.pixels]]\nweight = 1\nfragments = {{ min = {}, max = {}, law = \"log-uniform\" }}\ndepth = {depth}\n\
+             alpha = {{ law = \"{alpha_law}\", min = {:e}, max = {:e} }}\nrange = {{ half = {{ min = {:e}, max = {:e} }} }}\n\n",
             fragments.0, fragments.1, alpha.0, alpha.1, half.0, half.1
         )
     };
     format!(
         "# Random pixels with the ranges of the scene that was profiled: {} fragments, at most {} in a pixel.\n\
          name = \"profiled\"\nseed = 1\n\n[synth]\ncamera = {{ near = {near:e}, far = {far:e} }}\n\n{}{}{}\
-         [dataset]\nfeatures = \"{features}\"\ntraining_pairs = 500000\nvalidation_pairs = 50000\nrefresh = 0.05\nrows_per_pixel = 8\n{}\n\
-         [train]\nhidden = {hidden:?}\nepochs = 200\nbatch = 8192\nlearning_rate = 2e-2\nwarmup_steps = 200\nschedule = \"cosine\"\n\n\
+         [dataset]\nfeatures = \"{features}\"\ntraining_pairs = 500000\nvalidation_pairs = 50000\nrefresh = 0.05\n\
+         rows_per_pixel = 8\n{}\n\
+         [train]\nhidden = {hidden:?}\nepochs = 200\nbatch = 8192\nlearning_rate = 2e-2\nwarmup_steps = 200\n\
+         schedule = \"cosine\"\n\n\
          [evaluate]\npairs = 200000\n",
         facts.fragments,
         facts.depth_complexity,

@@ -40,8 +40,23 @@ pub struct Plan {
     pub epochs: u64,
     /// Most sizes that are tried.
     pub attempts: usize,
+    /// Which of the sizes that were tried is taken.
+    pub size: SizeChoice,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+/// Which of the sizes that were tried is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SizeChoice {
+    /// The network's own: it is retrained, and no other size is tried.
+    Keep,
+    /// The smallest that keeps the error.
+    #[default]
+    Smallest,
+    /// The one with the least error on the whole scene.
+    Best,
 }
 
 impl Default for Plan {
@@ -52,6 +67,7 @@ impl Default for Plan {
             visits: 60_000_000,
             epochs: 400,
             attempts: 10,
+            size: SizeChoice::default(),
             seed: 1,
         }
     }
@@ -70,6 +86,8 @@ pub struct Attempt {
     pub error_held_out: f64,
     /// Whether it keeps the error.
     pub kept: bool,
+    /// Whether no other size that was tried is both as small and as good.
+    pub on_front: bool,
     /// Time of fitting it \[s\].
     pub seconds: f64,
 }
@@ -77,7 +95,7 @@ pub struct Attempt {
 /// A network fitted to a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Specialised {
-    /// The smallest that keeps the error; the retrained one where none does.
+    /// The size that the plan asks for; the first network, retrained at its own size, where none keeps the error.
     pub mlp: Mlp,
     /// What was to be kept on the whole scene.
     pub target_error: f64,
@@ -396,6 +414,108 @@ fn smaller(width: usize, hidden: &[usize], most: usize) -> Option<Vec<usize>> {
         .find(|h| multiply_adds(width, h) <= most)
 }
 
+impl Attempt {
+    fn of(mlp: &Mlp, [error, error_held_out]: [f64; 2], kept: bool, seconds: f64) -> Self {
+        Self {
+            network: mlp.shape(),
+            multiply_adds: mlp.multiply_adds() as u64,
+            error,
+            error_held_out,
+            kept,
+            on_front: false,
+            seconds,
+        }
+    }
+}
+
+/// Marks the sizes that no other is both as small and as good as.
+fn mark_front(attempts: &mut [Attempt]) {
+    let beats = |a: &Attempt, b: &Attempt| {
+        a.multiply_adds <= b.multiply_adds
+            && a.error <= b.error
+            && (a.multiply_adds < b.multiply_adds || a.error < b.error)
+    };
+    for i in 0..attempts.len() {
+        attempts[i].on_front = !attempts.iter().any(|other| beats(other, &attempts[i]));
+    }
+}
+
+/// The attempt to take; the first, at the network's own size, where none keeps the error.
+fn choose(attempts: &[&Attempt], size: SizeChoice) -> usize {
+    let kept = (0..attempts.len()).filter(|&i| attempts[i].kept);
+    let found = match size {
+        SizeChoice::Keep => None,
+        SizeChoice::Smallest => kept.min_by_key(|&i| attempts[i].multiply_adds),
+        SizeChoice::Best => kept.min_by(|&a, &b| attempts[a].error.total_cmp(&attempts[b].error)),
+    };
+    found.unwrap_or(0)
+}
+
+/// Retrains the network at its own size, then smaller and smaller ones for as long as the error is kept, and then between what is enough
+/// and what is too few.
+fn search(
+    task: &Task<'_>,
+    mlp: &Mlp,
+    rows: &Rows,
+    plan: &Plan,
+    keeps: &dyn Fn([f64; 2]) -> bool,
+    stop: &dyn Fn() -> bool,
+    progress: &dyn Fn(usize, &str),
+) -> Result<Vec<(Attempt, Mlp)>, ProfileError> {
+    let most = if plan.size == SizeChoice::Keep {
+        1
+    } else {
+        plan.attempts
+    };
+    let mut tried: Vec<(Attempt, Mlp)> = Vec::new();
+    // The network that shrinking goes on from, and the multiply-adds that are known to be too few.
+    let (mut from, mut too_few) = (mlp.clone(), 0);
+    let mut next: Option<Vec<usize>> = None;
+    while tried.len() < most {
+        let begun = std::time::Instant::now();
+        let start = match &next {
+            None => from.clone(),
+            Some(hidden) => shrink(&from, &rows.features, hidden)?,
+        };
+        progress(tried.len(), &start.shape());
+        let fitted = fit(&start, rows, plan, tried.len() as u64, stop)?;
+        let errors = task.errors(&fitted)?;
+        let kept = keeps(errors);
+        let attempt = Attempt::of(&fitted, errors, kept, begun.elapsed().as_secs_f64());
+        tried.push((attempt, fitted.clone()));
+        if kept {
+            from = fitted;
+        } else if tried.len() == 1 {
+            // Retrained at its own size it is still not good enough: smaller ones will not be.
+            break;
+        } else {
+            too_few = fitted.multiply_adds();
+        }
+        next = next_size(&from, too_few);
+        if next.is_none() {
+            break;
+        }
+    }
+    Ok(tried)
+}
+
+/// Hidden sizes to try next: three quarters of what is enough for as long as the error is kept, then the middle of what is too few and
+/// what is enough; none where both are near.
+fn next_size(enough: &Mlp, too_few: usize) -> Option<Vec<usize>> {
+    let (most, sizes) = (enough.multiply_adds(), enough.sizes());
+    if too_few > 0 && (most - too_few) * 12 < most {
+        return None;
+    }
+    let at_most = if too_few == 0 {
+        most * 3 / 4
+    } else {
+        (most + too_few) / 2
+    };
+    let hidden = smaller(sizes[0], &sizes[1..sizes.len() - 1], at_most)?;
+    let size = multiply_adds(sizes[0], &hidden);
+    (!hidden.is_empty() && size > too_few && size < most).then_some(hidden)
+}
+
 /// Fits a network to a scene and makes it as small as the error allows; `progress` is told what is tried.
 ///
 /// # Errors
@@ -427,74 +547,16 @@ pub fn specialise(
             what: "fit a network to them",
         });
     }
-    let attempt = |mlp: &Mlp, [error, error_held_out]: [f64; 2], kept, seconds| Attempt {
-        network: mlp.shape(),
-        multiply_adds: mlp.multiply_adds() as u64,
-        error,
-        error_held_out,
-        kept,
-        seconds,
-    };
     let first = task.errors(mlp)?;
     let target_error = plan.target_error.unwrap_or(first[0]);
     let target_held_out = target_error * first[1] / first[0].max(f64::MIN_POSITIVE);
     let keeps = |errors: [f64; 2]| errors[0] <= target_error && errors[1] <= target_held_out;
-    let before = attempt(mlp, first, keeps(first), 0.0);
-
-    let width = mlp.feature_set().width();
-    let mut attempts: Vec<Attempt> = Vec::new();
-    // The smallest network that keeps the error, the one that shrinking goes on from, and the multiply-adds that are known to be too few.
-    let mut best: Option<(usize, Mlp)> = None;
-    let mut from = mlp.clone();
-    let mut too_few = 0;
-    let mut next = mlp.sizes()[1..mlp.sizes().len() - 1].to_vec();
-    while attempts.len() < plan.attempts {
-        let begun = std::time::Instant::now();
-        let start_from = if attempts.is_empty() {
-            from.clone()
-        } else {
-            shrink(&from, &rows.features, &next)?
-        };
-        progress(attempts.len(), &start_from.shape());
-        let fitted = fit(&start_from, &rows, plan, attempts.len() as u64, stop)?;
-        let errors = task.errors(&fitted)?;
-        let kept = keeps(errors);
-        attempts.push(attempt(&fitted, errors, kept, begun.elapsed().as_secs_f64()));
-        let size = fitted.multiply_adds();
-        if kept {
-            best = Some((attempts.len() - 1, fitted.clone()));
-            from = fitted;
-        } else if attempts.len() == 1 {
-            // Retrained at its own size it is still not good enough: smaller ones will not be.
-            best = None;
-            from = fitted;
-            break;
-        } else {
-            too_few = size;
-        }
-        // Three quarters for as long as the error is kept, then the middle of what is too few and what is enough.
-        let enough = from.multiply_adds();
-        let most = if too_few == 0 {
-            enough * 3 / 4
-        } else {
-            (enough + too_few) / 2
-        };
-        let sizes = from.sizes();
-        match smaller(width, &sizes[1..sizes.len() - 1], most) {
-            Some(hidden)
-                if !hidden.is_empty()
-                    && multiply_adds(width, &hidden) > too_few
-                    && multiply_adds(width, &hidden) < enough =>
-            {
-                next = hidden
-            }
-            _ => break,
-        }
-        if too_few > 0 && (enough - too_few) * 12 < enough {
-            break;
-        }
-    }
-    let (chosen, mut mlp_after) = best.unwrap_or((0, from));
+    let before = Attempt::of(mlp, first, keeps(first), 0.0);
+    let mut tried = search(&task, mlp, &rows, plan, &keeps, stop, progress)?;
+    let chosen = choose(&tried.iter().map(|t| &t.0).collect::<Vec<_>>(), plan.size);
+    let mut mlp_after = tried[chosen].1.clone();
+    let mut attempts: Vec<Attempt> = tried.drain(..).map(|t| t.0).collect();
+    mark_front(&mut attempts);
     let errors_before = scene.errors(&Neural::new(mlp.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
     let errors_after =
         scene.errors(&Neural::new(mlp_after.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
@@ -551,7 +613,7 @@ mod tests {
     }
 
     fn small() -> Mlp {
-        super::super::shipped().unwrap().swap_remove(1)
+        super::super::default_networks().swap_remove(1)
     }
 
     const QUICK: Plan = Plan {
@@ -560,8 +622,38 @@ mod tests {
         visits: 2_000_000,
         epochs: 400,
         attempts: 3,
+        size: SizeChoice::Smallest,
         seed: 1,
     };
+
+    /// By hand: the smallest and the best of those that keep the error, and the front of all.
+    #[test]
+    fn sizes_are_chosen() {
+        let attempt = |multiply_adds, error, kept| Attempt {
+            network: String::new(),
+            multiply_adds,
+            error,
+            error_held_out: error,
+            kept,
+            on_front: false,
+            seconds: 0.0,
+        };
+        let mut attempts = [
+            attempt(752, 1.4e-5, true),
+            attempt(560, 2.0e-5, true),
+            attempt(420, 9.5e-5, true),
+            attempt(430, 9.9e-5, true),
+            attempt(100, 5e-4, false),
+        ];
+        let chosen = |size| choose(&attempts.iter().collect::<Vec<_>>(), size);
+        let all = [SizeChoice::Keep, SizeChoice::Smallest, SizeChoice::Best].map(chosen);
+        assert_eq!(all, [0, 2, 0]);
+        mark_front(&mut attempts);
+        assert_eq!(attempts.map(|a| a.on_front), [true, true, true, false, true]);
+        // Control: where nothing keeps the error, the first is taken whatever is asked for.
+        let none = [attempt(752, 1.0, false), attempt(560, 0.5, false)];
+        assert_eq!(choose(&none.iter().collect::<Vec<_>>(), SizeChoice::Best), 0);
+    }
 
     /// Retrained on the scene the network errs less there, on what was held out too, and a smaller one errs no more than the first did; the same bytes on one thread. Control: an
     /// error that nothing can keep is not kept.

@@ -1,8 +1,8 @@
 //! The sections of `nmt evaluate`'s numbers: tables of errors, and errors against depth complexity and alpha.
 
-use super::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use super::html::{Cell, Table, details, escape, number, thousands};
 use super::scenes::{Bin, Method, Scene, chosen};
+use crate::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 
 /// Tables of all methods, a scene each.
 pub fn tables(scenes: &[Scene]) -> String {
@@ -18,7 +18,7 @@ pub fn tables(scenes: &[Scene]) -> String {
         }
         let head = [
             "method",
-            "image MSE ×1e-4",
+            "image MSE",
             "PSNR dB",
             "FLIP",
             "T-MSE",
@@ -34,16 +34,10 @@ pub fn tables(scenes: &[Scene]) -> String {
             let ms = |s: Option<f64>| Cell::shown(s, |s| number(1e3 * s));
             table.row(vec![
                 if m.is_network() { name.classed("network") } else { name },
-                Cell::shown(m.image_mse, |e| {
-                    if e.is_nan() || e == 0.0 {
-                        number(e)
-                    } else {
-                        fixed(1e4 * e)
-                    }
-                }),
+                Cell::shown(m.image_mse, error_text),
                 Cell::shown(m.psnr, |x| if x.is_finite() { format!("{x:.1}") } else { number(x) }),
                 Cell::shown(m.flip, |x| if x.is_nan() { number(x) } else { format!("{x:.4}") }),
-                Cell::number(m.t_mse),
+                Cell::shown(m.t_mse, error_text),
                 Cell::number(m.t_worst),
                 Cell::number(Some(m.nonfinite)).classed(if m.nonfinite > 0.0 { "bad" } else { "" }),
                 // Methods that keep every fragment say so with the greatest number there is.
@@ -76,12 +70,12 @@ pub fn tables(scenes: &[Scene]) -> String {
         Times are of one run of the reference implementation in f64 (networks in f32); they compare no renderers.</p>\n"
 }
 
-/// A small number of fixed digits.
-fn fixed(x: f64) -> String {
-    match x.abs() {
-        a if a >= 1000.0 => number(x),
-        a if a >= 0.00005 => format!("{x:.4}"),
-        _ => format!("{x:.1e}"),
+/// A mean squared error, in one notation wherever one stands.
+fn error_text(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        number(x)
+    } else {
+        format!("{x:.2e}")
     }
 }
 
@@ -283,8 +277,7 @@ mod tests {
         let html = tables(&sample());
         assert!(html.contains("12,345 fragments, at most 8 in a pixel"));
         for part in [
-            "10.0000",
-            "25.0000",
+            "1.00e-3",
             "30.5",
             "0.0123",
             "2.50e-3",

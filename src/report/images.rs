@@ -233,16 +233,14 @@ const VIEWER: &str = r#"<div class="viewer" id="viewer" hidden>
 #[cfg(test)]
 pub mod tests {
     use super::*;
+    use crate::chart::raster::Raster;
     use crate::report::scenes::{scenes, tests::found};
     use serde_json::json;
 
     /// A PNG of one colour.
     pub fn png(width: u32, height: u32) -> Vec<u8> {
         let mut bytes = Vec::new();
-        let picture = image::RgbImage::from_pixel(width, height, image::Rgb([200, 30, 90]));
-        picture
-            .write_to(&mut std::io::Cursor::new(&mut bytes), image::ImageFormat::Png)
-            .unwrap();
+        Raster::new(width, height, [200, 30, 90]).write_png(&mut bytes).unwrap();
         bytes
     }
 

@@ -4,7 +4,6 @@
 //! of strangers: all are escaped, any may be broken or of other types than expected, and the page says which were. A content security policy lets the
 //! page's own script run and no other. The same files make the same bytes.
 
-mod chart;
 mod checks;
 mod errors;
 mod find;
@@ -15,12 +14,14 @@ mod provenance;
 mod scenes;
 mod speed;
 mod stress;
+mod summary;
 mod time;
 mod training;
 mod value;
 
 pub use find::Problem;
 
+use crate::chart::palette;
 use crate::numeric::digest::sha256_hex;
 use crate::numeric::file::FileError;
 use find::Found;
@@ -101,6 +102,13 @@ struct Section {
 const SCRIPT: &str = include_str!("page.js");
 const STYLE: &str = include_str!("page.css");
 
+/// The style of the page, with the colours of series in their light and dark form.
+fn style() -> String {
+    STYLE
+        .replace("SERIES_LIGHT", &palette::variables(&palette::LIGHT))
+        .replace("SERIES_DARK", &palette::variables(&palette::DARK))
+}
+
 /// A page of everything in a folder and those below it.
 ///
 /// # Errors
@@ -165,7 +173,7 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
             "Speed of training, inference and generation",
             speed::section(&found),
             "speed of training, inference and generation",
-            "nmt bench train --json > DIR/train.json",
+            "nmt bench train --out DIR",
         ),
         section(
             "profile",
@@ -201,7 +209,7 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
         .iter()
         .filter_map(|s| Some((s.id, s.title, s.html.as_deref()?)))
         .collect();
-    let html = page(folder, &present, &missing, &found);
+    let html = page(folder, &present, &missing, &found, &summary::section(&found, &scenes));
     Ok(Page {
         html,
         sections: present.iter().map(|p| p.1).collect(),
@@ -222,7 +230,13 @@ fn script_hash(script: &str) -> String {
     format!("sha256-{}", base64(&bytes))
 }
 
-fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missing], found: &Found) -> String {
+fn page(
+    folder: &Path,
+    sections: &[(&str, &'static str, &str)],
+    missing: &[Missing],
+    found: &Found,
+    summary: &str,
+) -> String {
     // The folder's own name alone: a page may be given away, and other people's paths say nothing.
     let name = folder
         .canonicalize()
@@ -234,9 +248,12 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
     let name = escape(&name);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{}'\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{name}: nmt report</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n",
-        script_hash(SCRIPT)
+         <meta http-equiv=\"Content-Security-Policy\" \
+         content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src '{}'\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{name}: nmt report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+        script_hash(SCRIPT),
+        style()
     );
     out += &format!(
         "<header><h1>{name}</h1>\n<p class=\"note\">Made by nmt {} of {}.</p></header>\n",
@@ -251,6 +268,7 @@ fn page(folder: &Path, sections: &[(&str, &'static str, &str)], missing: &[Missi
         out += &format!("<li><a href=\"#{id}\">{title}</a></li>");
     }
     out += "</ul></nav>\n<main>\n";
+    out += &format!("<section id=\"summary\" aria-label=\"Summary\">\n{summary}</section>\n");
     if !found.problems.is_empty() {
         out += "<section id=\"problems\"><h2>Files that could not be used</h2>\n<ul>";
         for problem in found.problems.iter().take(MAX_PROBLEMS) {

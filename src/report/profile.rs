@@ -1,8 +1,9 @@
-//! The section of `nmt profile`, whatever it wrote: names and values, and a table with bars of every list of counts.
+//! The section of `nmt profile`: what a scene needs in sentences, its drawing, and behind a click all that was measured, whatever it is.
 
 use super::find::Found;
-use super::html::{Cell, Table, definitions, escape};
-use super::value::{scalar, words};
+use super::html::{Cell, Table, base64, definitions, details, escape};
+use super::value::{list, number, numbers, scalar, text, words};
+use crate::chart::histogram::{self, Panel};
 use serde_json::{Map, Value};
 
 /// Levels of objects that are followed.
@@ -11,6 +12,8 @@ const MAX_LEVELS: usize = 4;
 const BARS: [&str; 5] = ["share", "count", "pixels", "fragments", "evaluations"];
 /// Most entries of an object or tables of a level.
 const MAX_ENTRIES: usize = 60;
+/// Most bins of a histogram that is drawn.
+const MAX_BINS: usize = 200;
 
 /// The section; none where no file holds such results.
 pub fn section(found: &Found) -> Option<String> {
@@ -23,14 +26,73 @@ pub fn section(found: &Found) -> Option<String> {
                     .find_map(|k| object.get(*k)?.as_str())
                     .unwrap_or(&document.name);
                 out += &format!(
-                    "<article class=\"card\"><h3>{}</h3>\n{}</article>\n",
+                    "<article class=\"card\"><h3>{}</h3>\n{}{}{}</article>\n",
                     escape(title),
-                    of_object(object, 0)
+                    sentences(result),
+                    drawing(title, result).unwrap_or_default(),
+                    details("All numbers", &of_object(object, 0))
                 );
             }
         }
     }
     (!out.is_empty()).then_some(out)
+}
+
+/// What to run on the scene, in the words of the recommendation.
+fn sentences(result: &Value) -> String {
+    let words = result.get("recommendation").map_or(&[][..], |r| list(r, "words"));
+    let lines = words.iter().filter_map(Value::as_str).take(MAX_ENTRIES);
+    let items: String = lines.map(|line| format!("<li>{}</li>\n", escape(line))).collect();
+    if items.is_empty() {
+        items
+    } else {
+        format!("<ul>{items}</ul>\n")
+    }
+}
+
+/// The histograms and classes of the scene as a picture; none where a file holds none, or others than it should.
+fn drawing(title: &str, result: &Value) -> Option<String> {
+    let facts = result.get("facts")?;
+    let name = |value: &Value, key: &str| Some(text(value, &[key])?.chars().take(80).collect::<String>());
+    let panel = |h: &Value| {
+        let (edges, counts) = (numbers(h, &["edges"]), list(h, "counts"));
+        let counts: Vec<u64> = counts.iter().filter_map(Value::as_u64).collect();
+        let whole = edges.len() == counts.len() + 1 && !counts.is_empty() && counts.len() <= MAX_BINS;
+        // Sums of counts must not overflow.
+        let small = counts.iter().all(|&n| n < 1 << 48);
+        (whole && small && edges.iter().all(|e| e.is_finite())).then_some(Panel {
+            title: format!("{}, % of {}", name(h, "quantity")?, name(h, "of")?),
+            edges,
+            counts,
+        })
+    };
+    let share = |class: &Value| {
+        let share = number(class, &["share"]).filter(|s| (0.0..=1.0).contains(s))?;
+        let (class, answer) = (name(class, "class")?, name(class, "answer")?);
+        Some(histogram::Share {
+            label: format!("{class}: {:.1} % ({answer})", 100.0 * share),
+            share,
+        })
+    };
+    let panels: Vec<Panel> = list(facts, "histograms")
+        .iter()
+        .take(8)
+        .map(panel)
+        .collect::<Option<_>>()?;
+    let shares: Vec<histogram::Share> = list(facts, "classes")
+        .iter()
+        .take(20)
+        .map(share)
+        .collect::<Option<_>>()?;
+    if panels.is_empty() {
+        return None;
+    }
+    let svg = histogram::svg(title, &panels, "How every fragment is answered", &shares);
+    Some(format!(
+        "<img class=\"drawing\" alt=\"Histograms of {}\" src=\"data:image/svg+xml;base64,{}\">\n",
+        escape(title),
+        base64(svg.as_bytes())
+    ))
 }
 
 fn of_object(object: &Map<String, Value>, level: usize) -> String {
@@ -133,5 +195,27 @@ mod tests {
             assert!(html.contains(part), "{part}\n{html}");
         }
         assert!(section(&Found::default()).is_none());
+    }
+
+    /// The drawing shows what the file holds, and the sentences are those of the recommendation. Control: counts that do not fit their bins
+    /// make no drawing.
+    #[test]
+    fn scenes_are_drawn_and_described() {
+        let of = |counts: Value| {
+            json!({ "scene": "hair",
+                "facts": { "histograms": [{ "quantity": "alpha", "of": "fragments", "edges": [0.0, 0.5, 1.0], "counts": counts }],
+                    "classes": [{ "class": "nearest", "answer": "exact", "share": 0.25 }] },
+                "recommendation": { "words": ["Use <this>."] } })
+        };
+        let html = |result: Value| {
+            let found = found("p/profile.json", json!({ "command": "profile", "results": [result] }));
+            section(&found).unwrap()
+        };
+        let whole = html(of(json!([3, 1])));
+        assert!(whole.contains("data:image/svg+xml;base64,") && whole.contains("<li>Use &lt;this&gt;.</li>"));
+        assert!(whole.contains("<details"));
+        for wrong in [json!([3]), json!([3, -1]), json!(["x", 1]), json!([3, 1e300])] {
+            assert!(!html(of(wrong)).contains("svg+xml"));
+        }
     }
 }

@@ -1,9 +1,9 @@
 //! The section of `nmt stress`: cases by methods, and errors along what is swept.
 
-use super::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use super::find::Found;
 use super::html::{Cell, Table, escape};
 use super::value::{number as number_of, text, words};
+use crate::chart::{self, Axis, COLORS, Chart, Mark, Point, Scale, Series};
 use serde_json::Value;
 
 /// Most methods that are columns.
@@ -49,6 +49,8 @@ fn cases(file: &str, rows: &[&Value]) -> String {
         .iter()
         .copied()
         .filter(|r| text(r, &["case"]).is_some() && text(r, &["method"]).is_some())
+        // Rows of features alone are no cases, and the formats of weights no methods.
+        .filter(|r| text(r, &["kind"]).is_none_or(|kind| kind == "case"))
         .collect();
     if rows.is_empty() {
         return String::new();
@@ -56,7 +58,7 @@ fn cases(file: &str, rows: &[&Value]) -> String {
     let (cases, methods) = (in_order(&rows, "case"), in_order(&rows, "method"));
     let shown = &methods[..methods.len().min(MAX_COLUMNS)];
     let head: Vec<&str> = std::iter::once("case").chain(shown.iter().copied()).collect();
-    let mut table = Table::new(&format!("{file}: worst error of T, cases by methods"), &head).upright();
+    let mut table = Table::new(&format!("{file}: root mean square error of T, cases by methods"), &head).upright();
     let mut by_place = std::collections::HashMap::new();
     for row in &rows {
         by_place
@@ -78,25 +80,26 @@ fn cases(file: &str, rows: &[&Value]) -> String {
             methods.len() - shown.len()
         );
     }
-    out + "<p class=\"note\">Colour runs with the logarithm of the error, from 1e-7 to 1. <b>✕</b>: answers that are not finite; <b>↕</b>: answers outside [0, 1]. \
-        More numbers show on hovering.</p>\n"
+    out + "<p class=\"note\">Colour runs with the logarithm of the error, from 1e-7 to 1. <b>✕</b>: answers that are not \
+        finite; <b>↕</b>: answers outside [0, 1]. The worst error and more show on hovering.</p>\n"
 }
 
-/// The worst error with marks for what is worse than an error.
+/// The root mean square error, or the worst where the file has no other, with marks for what is worse than an error.
 fn cell(row: &Value) -> Cell {
     if let Some(why) = text(row, &["refused", "error"]) {
         return Cell::text("–").titled(why);
     }
     let count = |keys: &[&str]| number_of(row, keys).unwrap_or(0.0);
     let (bad, outside) = (count(&["nonfinite"]), count(&["out_of_range"]));
-    let worst = number_of(row, &["worst_error", "worst"]);
+    let rms = number_of(row, &["mse"]).map(f64::sqrt);
+    let error = rms.or_else(|| number_of(row, &["worst_error", "worst"]));
     let marks = [if bad > 0.0 { " ✕" } else { "" }, if outside > 0.0 { " ↕" } else { "" }].concat();
     let form = |x: f64| match x {
         0.0 => "0".to_owned(),
         x if x >= 0.0095 => format!("{x:.2}"),
         x => format!("{x:.0e}"),
     };
-    let number = worst.map_or("–".to_owned(), form);
+    let number = error.map_or("–".to_owned(), form);
     let lines: Vec<String> = [
         "fragments",
         "worst_error",
@@ -120,7 +123,7 @@ fn cell(row: &Value) -> Cell {
         ))
     })
     .collect();
-    let share = worst.map_or(0.0, |x| {
+    let share = error.map_or(0.0, |x| {
         ((x / MIN_COLORED).max(1.0).log10() / -MIN_COLORED.log10()).clamp(0.0, 1.0)
     });
     let style = if share > 0.0 {
@@ -128,7 +131,7 @@ fn cell(row: &Value) -> Cell {
     } else {
         String::new()
     };
-    Cell::shown(Some(worst.unwrap_or(f64::NAN)), |_| format!("{number}{marks}"))
+    Cell::shown(Some(error.unwrap_or(f64::NAN)), |_| format!("{number}{marks}"))
         .classed(if bad > 0.0 { "heat bad" } else { "heat" })
         .styled(style)
         .titled(&lines.join("\n"))
@@ -148,8 +151,7 @@ fn sweeps(rows: &[&Value]) -> String {
             .filter(|r| text(r, &["sweep"]) == Some(sweep))
             .collect();
         let methods = in_order(&of_sweep, "method");
-        let shown = &methods[..methods.len().min(COLORS)];
-        let series = shown.iter().enumerate().map(|(color, method)| {
+        let series = methods.iter().enumerate().map(|(color, method)| {
             let mut points: Vec<Point> = of_sweep
                 .iter()
                 .filter(|r| text(r, &["method"]) == Some(method))
@@ -167,21 +169,18 @@ fn sweeps(rows: &[&Value]) -> String {
             Series {
                 name: (*method).to_owned(),
                 points,
-                mark: Mark::LineAndPoints,
+                // Colours come again after the eighth.
+                mark: if color < COLORS {
+                    Mark::LineAndPoints
+                } else {
+                    Mark::Dashed
+                },
                 color,
             }
         });
-        let caption = format!(
-            "T-MSE against {}{}",
-            words(sweep),
-            if methods.len() > shown.len() {
-                ", the first methods of the file"
-            } else {
-                ""
-            }
-        );
+        let caption = format!("T-MSE against {}", words(sweep));
         let chart = Chart {
-            summary: format!("{caption}; {} of {} methods.", shown.len(), methods.len()),
+            summary: format!("{caption}; {} methods.", methods.len()),
             x: Axis {
                 label: words(sweep),
                 scale: Scale::Log { decades: 12 },
@@ -209,9 +208,17 @@ mod tests {
 
     #[test]
     fn cases_by_methods_with_marks() {
-        let row = |method: &str, case: &str, worst: Value, bad: u64, out: u64| json!({ "kind": "case", "report": { "method": method, "case": case, "worst_error": worst, "nonfinite": bad, "out_of_range": out, "p999_error": 0.5 } });
-        let rows = json!([row("a", "single <1>", json!(0.0), 0, 0), row("b", "single <1>", json!(0.25), 3, 1), row("a", "tied", json!(3e-5), 0, 0),
-            { "method": "b", "case": "tied", "worst_error": null, "refused": "no \"planes\"" }, { "case": "no method" }, [1]]);
+        let row = |method: &str, case: &str, worst: Value, bad: u64, out: u64| {
+            json!({ "kind": "case", "report": { "method": method, "case": case, "worst_error": worst, "nonfinite": bad,
+                "out_of_range": out, "p999_error": 0.5 } })
+        };
+        let rows = json!([row("a", "single <1>", json!(0.0), 0, 0), row("b", "single <1>", json!(0.25), 3, 1),
+            row("a", "tied", json!(3e-5), 0, 0),
+            { "method": "b", "case": "tied", "worst_error": null, "refused": "no \"planes\"" },
+            // The root mean square goes before the worst; formats of weights on rows of features are no methods.
+            { "kind": "case", "method": "a", "case": "thin", "mse": 1e-4, "worst_error": 0.9 },
+            { "kind": "features", "method": "a @ int8", "case": "rows", "mse": 1e-4 },
+            { "case": "no method" }, [1]]);
         let html = section(&found(
             "s/results.json",
             json!({ "command": "stress", "results": rows }),
@@ -219,7 +226,7 @@ mod tests {
         .unwrap();
         assert_eq!(
             (html.matches("<tr>").count(), html.matches("scope=\"col\"").count()),
-            (3, 3)
+            (4, 3)
         );
         for part in [
             "single &lt;1&gt;",
@@ -228,6 +235,7 @@ mod tests {
             "no &quot;planes&quot;",
             "p999 error: 0.500",
             "--heat:64%",
+            ">0.01</td>",
         ] {
             assert!(html.contains(part), "{part}\n{html}");
         }
@@ -243,7 +251,7 @@ mod tests {
         assert!(
             html.matches("<svg class=\"chart\"").count() == 1
                 && html.contains("T-MSE against half range")
-                && html.contains("2 of 2 methods")
+                && html.contains("; 2 methods.")
         );
     }
 }

@@ -1,10 +1,10 @@
 //! The section of run time against error: a scatter for each adapter and scene, with the Pareto front.
 
-use super::chart::{self, Axis, Chart, Mark, Point, Scale, Series};
 use super::find::{Document, Found};
 use super::html::{Cell, Table, number};
 use super::scenes::Scene;
 use super::value::{number as number_of, numbers, text};
+use crate::chart::{self, Tradeoff};
 use serde_json::Value;
 
 /// A method's time and error.
@@ -198,52 +198,23 @@ impl Group {
         };
         let caption = format!("{place}: time of pass 2 against {name}");
 
-        let point = |i: usize| {
-            let r = &self.rows[i];
-            let title = format!("{}: {} ms, {name} {}", r.method, number(r.pass_2), number(points[i].1));
-            Point {
-                x: points[i].0,
-                y: points[i].1,
+        let methods: Vec<Tradeoff> = self
+            .rows
+            .iter()
+            .enumerate()
+            .map(|(i, r)| Tradeoff {
+                name: r.method.clone(),
+                cost: r.pass_2,
                 spread: r.spread,
-                title,
-            }
-        };
-        let joined = Series {
-            name: "Pareto front".to_owned(),
-            points: front.iter().map(|&i| point(i)).collect(),
-            mark: Mark::Joined,
-            color: 6,
-        };
-        let mut series = vec![joined];
-        let neural = |i: usize| self.rows[i].method.starts_with("neural:");
-        // Names find room in this order.
-        let mut order: Vec<usize> = (0..self.rows.len()).collect();
-        order.sort_by_key(|i| (!neural(*i), !front.contains(i)));
-        for i in order {
-            let mark = if front.contains(&i) { Mark::Filled } else { Mark::Hollow };
-            series.push(Series {
-                name: self.rows[i].method.clone(),
-                points: vec![point(i)],
-                mark,
-                color: usize::from(neural(i)),
-            });
-        }
-        let chart = Chart {
-            summary: format!(
-                "{caption}, {} methods; on the Pareto front: {}.",
-                self.rows.len(),
-                self.names(&front)
-            ),
-            x: Axis {
-                label: "time of pass 2 [ms]".to_owned(),
-                scale: Scale::Log { decades: 9 },
-            },
-            y: Axis {
-                label: name.to_owned(),
-                scale: Scale::Log { decades: 8 },
-            },
-            series,
-        };
+                error: points[i].1,
+                on_front: front.contains(&i),
+                network: r.method.starts_with("neural:"),
+                title: format!("{}: {} ms, {name} {}", r.method, number(r.pass_2), number(points[i].1)),
+            })
+            .collect();
+        let names = self.names(&front);
+        let summary = format!("{caption}, {} methods; on the Pareto front: {names}.", self.rows.len());
+        let chart = chart::tradeoffs(summary, "time of pass 2 [ms]", name, &methods);
         let head = [
             "method",
             "pass 2 ms",

@@ -1,9 +1,9 @@
 //! The section of training: what each network is, and its losses epoch by epoch.
 
-use super::chart::{self, Axis, Chart, Mark, Point, Scale, Series};
 use super::find::{Document, Found};
 use super::html::{definitions, escape, number, thousands};
 use super::value::{number as number_of, text};
+use crate::chart::{self, Axis, Chart, Mark, Point, Scale, Series};
 use serde_json::Value;
 use std::collections::BTreeSet;
 

@@ -52,6 +52,7 @@ pub(super) fn unit(a: Vec3) -> Vec3 {
 
 /// A perspective camera.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Where it stands [scene units].

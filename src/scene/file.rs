@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 /// A scene: one of the built-in ones or meshes, and the camera.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// Name of a built-in scene, see [`BUILT_IN`]; none where there are meshes.
@@ -20,7 +21,8 @@ pub struct SceneFile {
     pub seed: Option<u64>,
     /// The camera; a built-in scene has one of its own where none is given.
     pub camera: Option<Camera>,
-    /// A spot light, described as the camera that sees what it shines on; a built-in scene has one of its own where none is given.
+    /// A spot light, described as the camera that sees what it shines on; a built-in scene has one of its own where
+    /// none is given.
     pub light: Option<Camera>,
     /// Meshes; none where a built-in scene is named.
     #[serde(default, rename = "mesh")]
@@ -32,6 +34,7 @@ pub struct SceneFile {
 
 /// A mesh of a scene file. Its points are scaled, then rotated about x, y and z in this order, then translated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeshEntry {
     /// An OBJ, glTF or GLB file; relative to the scene file's folder.
@@ -53,6 +56,7 @@ pub struct MeshEntry {
 
 /// Opacity and colour that take the place of a material's own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MaterialOverride {
     /// Opacity, in [0, 1].
@@ -328,7 +332,8 @@ impl SceneFile {
     }
 }
 
-/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit alike.
+/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit
+/// alike.
 pub(super) fn lit(color: [f32; 3], normal: Vec3) -> [f32; 3] {
     /// Share of the light that comes from everywhere.
     const AMBIENT: f64 = 0.35;

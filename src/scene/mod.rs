@@ -16,6 +16,7 @@ pub use path::CameraPath;
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;
+use crate::numeric::similar::suggestion;
 use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
@@ -91,7 +92,7 @@ pub enum SceneError {
         expected: String,
     },
     /// There is no built-in scene of this name.
-    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml", BUILT_IN.join(", "))]
+    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml{}", BUILT_IN.join(", "), suggestion(name, BUILT_IN))]
     UnknownBuiltIn {
         /// The name.
         name: String,
@@ -151,7 +152,8 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// The fragments of a scene, with colours, image size and camera planes.
 ///
 /// The result depends on the scene and the options alone, not on the number of threads.
-/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its pixel is left out.
+/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its
+/// pixel is left out.
 ///
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
@@ -159,8 +161,9 @@ pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, Scene
     scene.build(options, None)
 }
 
-/// The same fragments as [`build`] makes, the objects drawn in a random order: within a pixel fragments stand in the order in which a renderer that
-/// does not sort would shade them. Objects are the meshes of a scene file, and the panes, locks, leaves, pots, spheres and particles of built-in scenes.
+/// The same fragments as [`build`] makes, the objects drawn in a random order: within a pixel fragments stand in the
+/// order in which a renderer that does not sort would shade them. Objects are the meshes of a scene file, and the
+/// panes, locks, leaves, pots, spheres and particles of built-in scenes.
 ///
 /// # Errors
 /// As [`build`].
@@ -223,7 +226,8 @@ mod tests {
         }
     }
 
-    /// A random draw order moves fragments within their pixels and changes none; objects stay whole. Control: it does move some.
+    /// A random draw order moves fragments within their pixels and changes none; objects stay whole. Control: it does
+    /// move some.
     #[test]
     fn draw_orders_move_whole_objects() {
         let options = Options {

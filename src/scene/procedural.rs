@@ -504,7 +504,8 @@ fn spheres(out: &mut Builder) {
     );
 }
 
-/// Gauze in narrow folds, far apart: bunches of many fragments within a hundredth of their distance, several times as far as the one before.
+/// Gauze in narrow folds, far apart: bunches of many fragments within a hundredth of their distance, several times as
+/// far as the one before.
 fn curtains(out: &mut Builder, seed: u64) {
     const COLORS: [[f32; 3]; 5] = [
         [0.9, 0.35, 0.3],

@@ -1,4 +1,5 @@
-//! A scene as a light sees it: a shadow map of fragments, and points whose transmittance towards the light is known from rays.
+//! A scene as a light sees it: a shadow map of fragments, and points whose transmittance towards the light is known
+//! from rays.
 
 use super::camera::{Vec3, View, add, cross, dot, scale, sub};
 use super::raster::{Geometry, rasterise};
@@ -11,7 +12,8 @@ use rayon::prelude::*;
 /// What receivers on surfaces are drawn for.
 const PURPOSE: u64 = 0x5ad0;
 
-/// Share of a receiver's depth by which a fragment must lie in front of it to shade it, so that a surface does not shade itself.
+/// Share of a receiver's depth by which a fragment must lie in front of it to shade it, so that a surface does not
+/// shade itself.
 pub const DEPTH_BIAS: f64 = 5e-3;
 
 /// A point that light should reach.
@@ -32,7 +34,8 @@ pub struct Shadowed {
     pub map: FragmentList,
     /// Points of the surfaces and particles that the camera sees.
     pub on_surfaces: Vec<Receiver>,
-    /// Points of a floor under the scene, row by row, [`Self::floor_size`] a side; none where a point lies outside of the light's view.
+    /// Points of a floor under the scene, row by row, [`Self::floor_size`] a side; none where a point lies outside of
+    /// the light's view.
     pub floor: Vec<Option<Receiver>>,
     /// Points of the floor a side.
     pub floor_size: u32,
@@ -225,8 +228,8 @@ mod tests {
         assert!(meet([2.0, 0.0, 1.0], &corners, &[0.5; 3]).is_none());
     }
 
-    /// Rays and the rasterised shadow map agree on the floor: most points, whose texel holds what the ray meets, within 0.02. Control: the map's
-    /// transmittance of another texel.
+    /// Rays and the rasterised shadow map agree on the floor: most points, whose texel holds what the ray meets, within
+    /// 0.02. Control: the map's transmittance of another texel.
     #[test]
     fn rays_agree_with_the_map() {
         for name in ["glass-stacks", "spheres", "smoke"] {

@@ -6,10 +6,10 @@ pub mod arithmetic;
 pub mod bias;
 pub mod cases;
 pub mod classic;
-pub mod plot;
 pub mod random;
 pub mod rows;
 pub mod subject;
+pub mod suite;
 pub mod sweep;
 
 pub use cases::{Case, Fragments};

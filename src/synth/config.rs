@@ -14,6 +14,7 @@ pub const BETA_SHAPES: std::ops::RangeInclusive<f64> = 0.1..=1e3;
 
 /// A distribution of random pixels: a mixture of laws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SynthConfig {
     /// Planes between which the fragments lie.
@@ -24,6 +25,7 @@ pub struct SynthConfig {
 
 /// How one kind of pixel is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PixelLaw {
     /// The share of pixels that follow this law, relative to the weights of the others.
@@ -46,6 +48,7 @@ fn one() -> f64 {
 
 /// How many fragments a pixel has, ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FragmentCount {
     /// Least.
@@ -59,6 +62,7 @@ pub struct FragmentCount {
 
 /// What is uniform between the least and the greatest count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum CountLaw {
     /// The count.
@@ -70,6 +74,7 @@ pub enum CountLaw {
 
 /// A range of whole numbers, ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CountRange {
     /// Least.
@@ -80,6 +85,7 @@ pub struct CountRange {
 
 /// A range of numbers, ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Range {
     /// Least.
@@ -93,6 +99,7 @@ pub struct Range {
 /// [`Self::Window`] draws window depths. All others draw a shape, which [`PixelRange`] then puts between the camera's planes in moment depth: the log
 /// warp from near to far, view_z = near (far/near)^((z + 1)/2). A shape lives in [0, 1], and its lengths are shares of that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DepthLaw {
     /// Window depths uniform in a range.
@@ -135,6 +142,7 @@ pub enum DepthLaw {
 
 /// What the window depth range is a range of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum DepthReading {
     /// Each fragment's window depth is uniform in the range.
@@ -147,6 +155,7 @@ pub enum DepthReading {
 
 /// How much of the space between the planes a pixel fills, in moment depth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PixelRange {
     /// Half the pixel's range, h: log-uniform, in (0, 1]. The centre c is uniform in [h − 1, 1 − h], and the drawn shape is stretched until its nearest
@@ -156,6 +165,7 @@ pub struct PixelRange {
 
 /// How opaque the fragments of a pixel are.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum AlphaLaw {
     /// Uniform.
@@ -196,6 +206,7 @@ pub enum AlphaLaw {
 
 /// Which fragments of a pixel share one opacity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum AlphaReading {
     /// None: each draws its own.

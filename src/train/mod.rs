@@ -1,9 +1,11 @@
 //! Training: the only place that knows burn.
 
 pub mod adam;
+pub mod backend;
 #[cfg(feature = "burn")]
 pub mod burn;
 pub mod checkpoint;
+pub mod config;
 mod engine;
 pub mod feed;
 pub mod fused;
@@ -11,288 +13,14 @@ pub mod initial;
 pub mod scalar;
 pub mod trainer;
 
+pub use backend::{Backend, BackendError};
 pub use checkpoint::{Checkpoint, CheckpointError};
+pub use config::{Schedule, TrainConfig, TrainConfigError};
 pub use engine::Engine;
 pub use trainer::{EpochReport, Outcome, TrainError, train};
 
 use crate::dataset::Batch;
-use crate::dataset::build::is_default;
-use crate::features::FeatureSet;
-use crate::numeric::lanes::LANES;
 use serde::{Deserialize, Serialize};
-
-/// How a network is trained.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TrainConfig {
-    /// Units of each hidden layer.
-    pub hidden: Vec<usize>,
-    /// Passes over the training rows.
-    pub epochs: u64,
-    /// Rows of one step, a multiple of sixteen; the last step of an epoch takes what is left.
-    pub batch: usize,
-    /// Adam's step size.
-    pub learning_rate: f64,
-    /// How the step size changes over the steps.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub schedule: Schedule,
-    /// Steps over which the step size first rises from 0.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub warmup_steps: u64,
-    /// Networks to train, from as many seeds; the one with the least validation loss is kept.
-    #[serde(default = "one", skip_serializing_if = "is_one")]
-    pub seeds: u64,
-    /// Adam's decay of the mean gradient.
-    #[serde(default = "default_beta1")]
-    pub beta1: f64,
-    /// Adam's decay of the mean squared gradient.
-    #[serde(default = "default_beta2")]
-    pub beta2: f64,
-    /// Adam's guard against division by zero.
-    #[serde(default = "default_epsilon")]
-    pub epsilon: f64,
-    /// Epochs between two checkpoints.
-    #[serde(default = "default_checkpoint_every")]
-    pub checkpoint_every: u64,
-}
-
-/// How the step size changes over the steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Schedule {
-    /// Not at all.
-    #[default]
-    Constant,
-    /// Along half a cosine down to 0 at the last step.
-    Cosine,
-}
-
-fn one() -> u64 {
-    1
-}
-fn is_one(n: &u64) -> bool {
-    *n == 1
-}
-fn default_beta1() -> f64 {
-    0.9
-}
-fn default_beta2() -> f64 {
-    0.999
-}
-/// What Keras, which NMT24 used, takes by default.
-fn default_epsilon() -> f64 {
-    1e-7
-}
-fn default_checkpoint_every() -> u64 {
-    50
-}
-
-/// What is wrong with a training configuration.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("train.{field} = {value}: must be {expected}")]
-pub struct TrainConfigError {
-    field: &'static str,
-    value: String,
-    expected: &'static str,
-}
-
-impl TrainConfig {
-    /// Checks every field.
-    ///
-    /// # Errors
-    /// [`TrainConfigError`] names the field and what it must be.
-    pub fn validate(&self) -> Result<(), TrainConfigError> {
-        let most = crate::model::mlp::MAX_UNITS;
-        let unit = |x: f64| (0.0..1.0).contains(&x);
-        let checks = [
-            (
-                self.hidden.iter().all(|&h| (1..=most).contains(&h)) && self.hidden.len() <= 16,
-                "hidden",
-                format!("{:?}", self.hidden),
-                "at most 16 layers of 1 to 4096 units",
-            ),
-            (self.epochs >= 1, "epochs", self.epochs.to_string(), "at least 1"),
-            (
-                self.batch >= 1 && self.batch.is_multiple_of(LANES),
-                "batch",
-                self.batch.to_string(),
-                "a multiple of 16, at least 16",
-            ),
-            (
-                (1..=1000).contains(&self.seeds),
-                "seeds",
-                self.seeds.to_string(),
-                "from 1 to 1000",
-            ),
-            (
-                self.learning_rate > 0.0 && self.learning_rate <= 1.0,
-                "learning_rate",
-                self.learning_rate.to_string(),
-                "greater than 0 and at most 1",
-            ),
-            (unit(self.beta1), "beta1", self.beta1.to_string(), "from 0 to below 1"),
-            (unit(self.beta2), "beta2", self.beta2.to_string(), "from 0 to below 1"),
-            (
-                self.epsilon > 0.0 && self.epsilon.is_finite(),
-                "epsilon",
-                self.epsilon.to_string(),
-                "finite and greater than 0",
-            ),
-            (
-                self.checkpoint_every >= 1,
-                "checkpoint_every",
-                self.checkpoint_every.to_string(),
-                "at least 1",
-            ),
-        ];
-        match checks.into_iter().find(|(ok, ..)| !ok) {
-            Some((_, field, value, expected)) => Err(TrainConfigError { field, value, expected }),
-            None => Ok(()),
-        }
-    }
-}
-
-impl TrainConfig {
-    /// Step size of a step, from 1, of so many.
-    pub fn learning_rate_at(&self, step: u64, steps: u64) -> f64 {
-        let warm = if self.warmup_steps == 0 {
-            1.0
-        } else {
-            (step as f64 / self.warmup_steps as f64).min(1.0)
-        };
-        let decay = match self.schedule {
-            Schedule::Constant => 1.0,
-            Schedule::Cosine => 0.5 * (1.0 + libm::cos(std::f64::consts::PI * step as f64 / steps as f64)),
-        };
-        self.learning_rate * warm * decay
-    }
-}
-
-/// What computes gradients and takes Adam's steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Backend {
-    /// Our own kernel; see [`fused`].
-    Fused,
-    /// One of burn's.
-    Burn(Engine),
-}
-
-/// Why a backend cannot be had.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BackendError {
-    /// There is none of that name.
-    #[error("backend '{0}': there is none of that name; there are {list}", list = Backend::NAMES.join(", "))]
-    Unknown(String),
-    /// It is left out of this program.
-    #[error(
-        "backend '{name}': this program was built without it; build it with 'cargo build --release --features {feature}', or choose fused"
-    )]
-    NotBuilt {
-        /// The backend.
-        name: &'static str,
-        /// The cargo feature that it needs.
-        feature: &'static str,
-    },
-    /// There is nothing to compute on.
-    #[error("backend '{name}': {reason}; or choose fused, which needs no GPU")]
-    NoDevice {
-        /// The backend.
-        name: &'static str,
-        /// What it says.
-        reason: String,
-    },
-    /// The GPU takes no step.
-    #[error(
-        "backend '{name}' on {adapter}: a trial step failed: {reason}; choose a smaller batch, another driver, or fused, which needs no GPU"
-    )]
-    Failed {
-        /// The backend.
-        name: &'static str,
-        /// Name of the GPU.
-        adapter: String,
-        /// What was said against it.
-        reason: String,
-    },
-}
-
-impl Backend {
-    /// Names of all backends, of those too that this program may have been built without.
-    pub const NAMES: [&str; 5] = ["fused", "flex", "ndarray", "wgpu", "cuda"];
-
-    /// Its name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fused => "fused",
-            Self::Burn(engine) => engine.name(),
-        }
-    }
-
-    /// The backend of a name.
-    ///
-    /// # Errors
-    /// [`BackendError::Unknown`]; [`BackendError::NotBuilt`] where the cargo feature of that name was off.
-    pub fn named(name: &str) -> Result<Self, BackendError> {
-        if name == "fused" {
-            return Ok(Self::Fused);
-        }
-        match Engine::ALL.iter().find(|engine| engine.name() == name) {
-            Some(&engine) => Ok(Self::Burn(engine)),
-            None => Err(match Self::NAMES.into_iter().find(|known| *known == name) {
-                Some(name) => BackendError::NotBuilt {
-                    name,
-                    feature: if name == "ndarray" { "burn" } else { name },
-                },
-                None => BackendError::Unknown(name.to_owned()),
-            }),
-        }
-    }
-
-    /// Name of the GPU that it computes on; none where that is the CPU.
-    ///
-    /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on.
-    pub fn adapter(self) -> Result<Option<String>, BackendError> {
-        match self {
-            Self::Fused => Ok(None),
-            Self::Burn(engine) => engine.adapter(),
-        }
-    }
-
-    /// An optimiser of this kind, at the given weights and with fresh moments.
-    ///
-    /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on, [`BackendError::Failed`] where that takes no step.
-    pub fn optimiser(
-        self,
-        set: FeatureSet,
-        shapes: &[(usize, usize)],
-        parameters: &[f32],
-        config: &TrainConfig,
-    ) -> Result<Box<dyn Optimiser>, BackendError> {
-        Ok(match self {
-            Self::Fused => Box::new(fused::Fused::new(set, shapes, parameters, config)),
-            #[cfg(feature = "burn")]
-            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)?),
-            #[cfg(not(feature = "burn"))]
-            Self::Burn(engine) => match engine {},
-        })
-    }
-}
-
-impl TryFrom<String> for Backend {
-    type Error = BackendError;
-
-    fn try_from(name: String) -> Result<Self, BackendError> {
-        Self::named(&name)
-    }
-}
-
-impl From<Backend> for String {
-    fn from(backend: Backend) -> Self {
-        backend.name().to_owned()
-    }
-}
 
 /// The moments of Adam, in the order of the parameters.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -329,7 +57,9 @@ mod tests {
     use super::fused::{Fused, all_blocks};
     use super::*;
     use crate::dataset::{Blocks, Rows};
+    use crate::features::FeatureSet;
     use crate::model::{Mlp, Provenance};
+    use crate::numeric::require::or_skip;
     use crate::numeric::rng::stream;
     use fearless_simd::Level;
     use rand::RngExt;
@@ -340,21 +70,12 @@ mod tests {
         toml::from_str("hidden = [8, 4]\nepochs = 1\nbatch = 64\nlearning_rate = 1e-3").unwrap()
     }
 
-    /// burn's backends that can be had here. One without its device is said aloud, and a failure where `NMT_REQUIRE` names it (`gpu` for wgpu, `cuda`).
+    /// burn's backends that can be had here. One without its device is reported as skipped (`gpu` for wgpu, `cuda`).
     fn engines() -> Vec<Engine> {
-        let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
         let mut engines = Engine::ALL.to_vec();
-        engines.retain(|engine| match engine.adapter() {
-            Ok(_) => true,
-            Err(why) => {
-                let tool = if engine.name() == "wgpu" { "gpu" } else { engine.name() };
-                assert!(
-                    !required.split(',').any(|name| name.trim() == tool),
-                    "{tool} is required: {why}"
-                );
-                println!("skipped: {why}");
-                false
-            }
+        engines.retain(|engine| {
+            let tool = if engine.name() == "cuda" { "cuda" } else { "gpu" };
+            or_skip(tool, engine.adapter()).is_some()
         });
         #[cfg(feature = "burn")]
         assert!(engines.contains(&Engine::Ndarray));

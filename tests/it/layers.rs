@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 /// Top to bottom; modules on one line do not import one another.
-const ORDER: [&[&str]; 18] = [
+const ORDER: [&[&str]; 17] = [
     &["numeric"],
-    &["pixel"],
+    &["pixel", "chart"],
     &["synth", "scene"],
     &["moments"],
     &["features"],
@@ -19,7 +19,6 @@ const ORDER: [&[&str]; 18] = [
     &["gpu"],
     &["check"],
     &["evaluate"],
-    &["chart"],
     &["bench", "stress", "profile", "report"],
     &["cli"],
 ];

@@ -1,1 +1,14 @@
+//! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the
+//! documentation, and an independent reader.
 
+mod cli;
+#[path = "../common/mod.rs"]
+mod common;
+mod docs;
+mod documents;
+mod layers;
+mod methods;
+mod over_time;
+mod python;
+mod report;
+mod shaders;

@@ -8,8 +8,8 @@ use nmt::scene::npz;
 use std::path::Path;
 use std::process::Command;
 
-/// Wavelet and hybrid transparency agree with `scripts/oit_reference.py` to 1e-6 in T over the sample of pixels in `data/`. Control: one weight that is
-/// off by 1e-4 is found; the script's own control is the weights in another order.
+/// Wavelet and hybrid transparency agree with `scripts/oit_reference.py` to 1e-6 in T over the sample of pixels in
+/// `data/`. Control: one weight that is off by 1e-4 is found; the script's own control is the weights in another order.
 #[test]
 fn wavelet_and_hybrid_agree_with_numpy() {
     let Some(python) = crate::python::python() else { return };
@@ -54,7 +54,10 @@ fn wavelet_and_hybrid_agree_with_numpy() {
 /// The table in docs/methods.md is what `nmt methods --markdown` prints. Control: it does not hold a line that is not.
 #[test]
 fn the_table_of_methods_is_the_registrys() {
-    let output = Command::new(env!("CARGO_BIN_EXE_nmt")).args(["methods", "--markdown"]).output().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_nmt"))
+        .args(["methods", "--markdown"])
+        .output()
+        .unwrap();
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success() && table.lines().count() > 60, "{table}");
     let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/methods.md")).unwrap();
@@ -81,7 +84,11 @@ fn evaluate_knows_shadows_tints_and_orders() {
     };
     let methods = ["--methods", "moment-power-4,multi-layer-alpha:2"];
     let (code, text) = run(
-        &[&["--fragments", "glass-stacks", "spheres", "--tint", "0.5"], &methods[..]].concat(),
+        &[
+            &["--fragments", "glass-stacks", "spheres", "--tint", "0.5"],
+            &methods[..],
+        ]
+        .concat(),
         "a",
     );
     assert_eq!(code, Some(0), "{text}");
@@ -93,8 +100,17 @@ fn evaluate_knows_shadows_tints_and_orders() {
     ] {
         assert!(text.contains(part), "{part} is missing in\n{text}");
     }
-    assert!(folder.path().join("a/comparison.md").exists() && !text.contains("seconds"), "{text}");
-    let shadows = ["--fragments", "spheres", "--shadows", "--methods", "moment-power-4,abuffer"];
+    assert!(
+        folder.path().join("a/comparison.md").exists() && !text.contains("seconds"),
+        "{text}"
+    );
+    let shadows = [
+        "--fragments",
+        "spheres",
+        "--shadows",
+        "--methods",
+        "moment-power-4,abuffer",
+    ];
     let (code, text) = run(&shadows, "b");
     assert_eq!(code, Some(0), "{text}");
     assert!(text.contains("surfaces T-MSE") && text.contains("9x9"), "{text}");

@@ -1,6 +1,6 @@
 //! `nmt report` on what the other commands really write.
 
-use crate::cli::{Workplace, nmt};
+use crate::common::{Workplace, nmt};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use std::path::Path;

@@ -3,7 +3,7 @@
 use super::{Common, Turns, cells, merged};
 use crate::bench::Summary;
 use crate::bench::methods::{Candidate, Clock, Cost, FrontTime, NONE, Setting, Table};
-use crate::bench::scatter::{Captions, Point, is_drawn, svg};
+use crate::chart::{Tradeoff, tradeoffs};
 use crate::cli::Verdict;
 use crate::cli::predict::SkipName;
 use crate::cli::scene::{SceneOptions, ViewOptions, load};
@@ -12,7 +12,7 @@ use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
 use crate::export::Format;
 use crate::gpu::{Gpu, classic};
-use crate::model::file;
+use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
 use crate::oit::{all_names, parse};
@@ -28,19 +28,19 @@ pub struct BenchMethods {
     #[arg(long, value_name = "F.npz|SCENE")]
     fragments: String,
     /// Methods, by name; "shaders" stands for every classic one that runs on the GPU, "all" for every classic one.
-    #[arg(long, value_delimiter = ',', default_value = "shaders")]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "shaders")]
     methods: Vec<String>,
     /// Networks to measure beside them.
-    #[arg(long, value_name = "MODEL.json", num_args = 1..)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
     /// Forms of the networks' shaders.
-    #[arg(long, value_delimiter = ',', default_value = "wgsl", value_parser = wgsl)]
+    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "wgsl", value_parser = wgsl)]
     format: Vec<Format>,
     /// Which fragments to run the networks for.
     #[arg(long, value_enum, default_value = "exact")]
     skip: SkipName,
     /// Where to measure.
-    #[arg(long, value_enum, value_delimiter = ',', default_values = ["cpu", "gpu"])]
+    #[arg(long, value_enum, value_delimiter = ',', num_args = 1.., default_values = ["cpu", "gpu"])]
     device: Vec<Device>,
     /// Folder for results.json and the pictures of time against error.
     #[arg(long, value_name = "DIR")]
@@ -155,7 +155,7 @@ impl BenchMethods {
         if let Some(out) = &self.out {
             for (device, table) in &tables {
                 let path = out.join(picture(*device));
-                let text = chart(&scene, table);
+                let Some(text) = chart(&scene, table) else { continue };
                 write_atomically(&path, replace, |w| w.write_all(text.as_bytes()))?;
                 written += &format!("{}\n", path.display());
             }
@@ -207,7 +207,7 @@ impl BenchMethods {
             }
         }
         for path in &self.model {
-            let candidate = Candidate::Network(Box::new(file::load(path)?));
+            let candidate = Candidate::Network(Box::new(shipped::open(path)?));
             demanded.insert(candidate.name());
             candidates.push(candidate);
         }
@@ -302,7 +302,7 @@ fn table_text(t: &Table, repeat: usize) -> String {
         "max",
         "pass 1 ns",
         "both ns",
-        "image MSE x1e-4",
+        "image MSE",
         "FLIP",
         "T-MSE",
         "non-finite",
@@ -321,7 +321,7 @@ fn table_text(t: &Table, repeat: usize) -> String {
             nanoseconds(s.max, c),
             median(c.passes.as_ref().map(|p| &p.accumulate)),
             median(Some(&c.both)),
-            number(c.image_mse, &|x| format!("{:.4}", x * 1e4)),
+            number(c.image_mse, &|x| format!("{x:.2e}")),
             number(c.flip_mean, &|x| format!("{x:.4}")),
             number(c.transmittance_mse, &|x| format!("{x:.2e}")),
             c.nonfinite.to_string(),
@@ -360,18 +360,20 @@ fn table_text(t: &Table, repeat: usize) -> String {
     )
 }
 
-/// Time against error of one adapter.
-fn chart(scene: &str, t: &Table) -> String {
-    let points: Vec<Point> = t
+/// Time against error of one adapter; none where no method has a place on logarithmic axes.
+fn chart(scene: &str, t: &Table) -> Option<String> {
+    let methods: Vec<Tradeoff> = t
         .costs
         .iter()
         .filter(|c| c.method != NONE)
-        .map(|c| Point {
-            label: label(c),
-            time: 1e9 * t.time(c) / c.fragments as f64,
+        .map(|c| Tradeoff {
+            name: label(c),
+            cost: 1e9 * t.time(c) / c.fragments as f64,
+            spread: None,
             error: c.error().unwrap_or(f64::NAN),
             on_front: c.on_front,
             network: c.network.is_some(),
+            title: label(c),
         })
         .collect();
     let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {
@@ -379,10 +381,10 @@ fn chart(scene: &str, t: &Table) -> String {
     } else {
         "T-MSE"
     };
-    let undrawn: Vec<String> = points
+    let undrawn: Vec<String> = methods
         .iter()
-        .filter(|p| !is_drawn(p))
-        .map(|p| format!("{} ({})", p.label, if p.error == 0.0 { "exact" } else { "NaN" }))
+        .filter(|m| !m.is_drawn())
+        .map(|m| format!("{} ({})", m.name, if m.error == 0.0 { "exact" } else { "NaN" }))
         .collect();
     let empty = t
         .costs
@@ -402,11 +404,8 @@ fn chart(scene: &str, t: &Table) -> String {
         FrontTime::Weights => "pass 2",
         FrontTime::Both => "both passes",
     };
-    let captions = Captions {
-        title: format!("{scene} on {}", t.adapter),
-        time: format!("{time}, ns a fragment ({clock})"),
-        error: error.to_owned(),
-        foot: format!("{}{missing}", empty.unwrap_or_default()),
-    };
-    svg(&captions, &points)
+    let title = format!("{scene} on {}", t.adapter);
+    let cost = format!("{time}, ns a fragment ({clock})");
+    tradeoffs(format!("{title}: {cost} against {error}"), &cost, error, &methods)
+        .document(&title, &format!("{}{missing}", empty.unwrap_or_default()))
 }

@@ -62,10 +62,8 @@ impl Session<'_> {
         let truth = rows.iter().find_map(|row| row.cpu.over_time?.truth_change_mse);
         match (self.options.path(), truth) {
             (Some(path), Some(truth)) => format!(
-                "; {} frames, {} degrees a frame, the truth itself changes by {:.3}e-6 (mean square)",
-                path.frames,
-                path.degrees_per_frame,
-                truth * 1e6
+                "; {} frames, {} degrees a frame, the truth itself changes by {:.2e} (mean square)",
+                path.frames, path.degrees_per_frame, truth
             ),
             _ => String::new(),
         }

@@ -4,7 +4,7 @@ use super::{Evaluate, shadows};
 use crate::export::Format;
 use crate::features::MomentFrame;
 use crate::gpu::{GpuError, MethodShader};
-use crate::model::file;
+use crate::model::shipped;
 use crate::oit::neural::Neural;
 use crate::oit::{Method, all_names, parse};
 use std::collections::HashSet;
@@ -35,7 +35,7 @@ pub struct Requested {
 }
 
 fn shader_of(path: &Path) -> anyhow::Result<Result<MethodShader, GpuError>> {
-    Ok(MethodShader::neural(&file::load(path)?, Format::Wgsl))
+    Ok(MethodShader::neural(&shipped::open(path)?, Format::Wgsl))
 }
 
 impl Evaluate {
@@ -82,9 +82,10 @@ impl Evaluate {
         })
     }
 
-    /// A network, and with `--prepass` the same network on moments of the pixel's own frame, where its moments have one.
+    /// A network, and with `--prepass` the same network on moments of the pixel's own frame, where its moments have
+    /// one.
     fn network(&self, path: &Path) -> anyhow::Result<Vec<Requested>> {
-        let neural = || file::load(path).map(|mlp| Neural::new(mlp).with_skip(self.skip.into()));
+        let neural = || shipped::open(path).map(|mlp| Neural::new(mlp).with_skip(self.skip.into()));
         let mut requested = vec![Requested {
             method: Box::new(neural()?),
             demanded: true,

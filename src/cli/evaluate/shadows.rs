@@ -10,7 +10,8 @@ use crate::scene;
 use crate::scene::shadow::{ShadowOptions, Shadowed};
 use serde_json::{Value, json};
 
-/// Methods that a shadow is told by where none is named: moments with both overestimations, and the technique that they replaced.
+/// Methods that a shadow is told by where none is named: moments with both overestimations, and the technique that they
+/// replaced.
 pub const STORY: [&str; 9] = [
     "moment-power-4:overestimation=0",
     "moment-power-4:overestimation=0.5",

@@ -44,11 +44,12 @@ fn equal(a: &MethodResult, b: &MethodResult) -> bool {
     bits(a) == bits(b) && bits(a).iter().any(Option::is_some) && a.capabilities == b.capabilities
 }
 
-/// Results in the order in which they stand. A method that was not asked for by its own name and equals one above it is named in its row.
+/// Results in the order in which they stand. A method that was not asked for by its own name and equals one above it is
+/// named in its row.
 pub(super) fn rows(results: &[Row]) -> String {
     let mut lines = vec![cells([
         "method",
-        "image MSE x1e-4",
+        "image MSE",
         "PSNR dB",
         "FLIP",
         "T-MSE",
@@ -61,7 +62,7 @@ pub(super) fn rows(results: &[Row]) -> String {
     ])];
     let moving = results.iter().any(|r| r.cpu.over_time.is_some());
     if moving {
-        lines[0].extend(cells(["frame change x1e-6", "worst change"]));
+        lines[0].extend(cells(["frame change", "worst change"]));
     }
     let mut shown: Vec<&MethodResult> = Vec::new();
     let mut notes = String::new();
@@ -74,7 +75,7 @@ pub(super) fn rows(results: &[Row]) -> String {
         shown.push(r);
         let mut line = vec![
             name(&r.method, &r.capabilities),
-            number(r.image_mse, |x| format!("{:.4}", x * 1e4)),
+            number(r.image_mse, |x| format!("{x:.2e}")),
             number(r.image_psnr_db, |x| format!("{x:.1}")),
             number(r.flip_mean, |x| format!("{x:.4}")),
             number(r.transmittance_mse, |x| format!("{x:.2e}")),
@@ -112,15 +113,14 @@ fn order_note(result: &MethodResult) -> String {
     } else {
         String::new()
     };
-    let (what, scale) = match result.image_mse {
-        Some(_) => ("image MSE x1e-4", 1e4),
-        None => ("T-MSE", 1.0),
+    let what = if result.image_mse.is_some() {
+        "image MSE"
+    } else {
+        "T-MSE"
     };
     format!(
-        "{ORDER_MARK} {} depends on the order: mean of {fragments} random orders of fragments{of_objects}, {what} from {:.4} to {:.4}\n",
-        result.method,
-        least * scale,
-        greatest * scale
+        "{ORDER_MARK} {} depends on the order: mean of {fragments} random orders of fragments{of_objects}, {what} from {least:.2e} to {greatest:.2e}\n",
+        result.method
     )
 }
 
@@ -135,7 +135,7 @@ pub(super) fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[Row]) -> 
         "99.9 % within",
         "worst",
         "FLIP to CPU",
-        "image MSE x1e-4",
+        "image MSE",
         "FLIP",
         "non-finite",
         "pass 1 ms",
@@ -148,7 +148,7 @@ pub(super) fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[Row]) -> 
             format!("{:.1e}", r.channel_difference_999),
             format!("{:.1e}", r.channel_difference_worst),
             format!("{:.1e}", r.flip_mean_to_cpu),
-            format!("{:.4}", r.image_mse * 1e4),
+            format!("{:.2e}", r.image_mse),
             format!("{:.4}", r.flip_mean),
             r.image_nonfinite.to_string(),
             milliseconds(r.seconds_accumulate),
@@ -173,7 +173,7 @@ pub(super) fn tinted_rows(results: &[Row]) -> String {
     let Some((_, first)) = rows.first() else {
         return String::new();
     };
-    let heading = format!("\nglass tinted by {}, image MSE x1e-4:\n", first.strength);
+    let heading = format!("\nglass tinted by {}, image MSE:\n", first.strength);
     rows.sort_by(|a, b| a.1.three_channel_image_mse.total_cmp(&b.1.three_channel_image_mse));
     let mut lines = vec![cells([
         "method",
@@ -184,8 +184,8 @@ pub(super) fn tinted_rows(results: &[Row]) -> String {
     for (method, tinted) in rows {
         lines.push(vec![
             method.clone(),
-            number(Some(tinted.scalar_image_mse), |x| format!("{:.4}", x * 1e4)),
-            number(Some(tinted.three_channel_image_mse), |x| format!("{:.4}", x * 1e4)),
+            number(Some(tinted.scalar_image_mse), |x| format!("{x:.2e}")),
+            number(Some(tinted.three_channel_image_mse), |x| format!("{x:.2e}")),
             tinted
                 .three_channel_bits_per_pixel
                 .map_or("unbounded".to_owned(), |bits| bits.to_string()),
@@ -194,7 +194,8 @@ pub(super) fn tinted_rows(results: &[Row]) -> String {
     format!("{heading}{}", table(&lines))
 }
 
-/// Mean square of an error that nobody sees, a sixteenth of a step of an 8-bit display: what a geometric mean takes for exact.
+/// Mean square of an error that nobody sees, a sixteenth of a step of an 8-bit display: what a geometric mean takes for
+/// exact.
 const INVISIBLE: f64 = (1.0 / (16.0 * 255.0)) * (1.0 / (16.0 * 255.0));
 
 /// A method over all scenes.
@@ -203,7 +204,8 @@ pub(super) struct Compared<'a> {
     pub capabilities: Capabilities,
     /// Image MSE of each scene, in their order; none where the scene makes no image.
     pub errors: Vec<Option<f64>>,
-    /// Geometric mean of the image MSE over the scenes, errors below [`INVISIBLE`] counted as that; none unless every scene has one that is a number.
+    /// Geometric mean of the image MSE over the scenes, errors below [`INVISIBLE`] counted as that; none unless every
+    /// scene has one that is a number.
     pub mean: Option<f64>,
 }
 
@@ -247,7 +249,7 @@ pub(super) fn compare(scenes: &[SceneResults]) -> Vec<Compared<'_>> {
     compared
 }
 
-/// The table over all scenes, in Markdown: image MSE ×1e-4 and what each method costs.
+/// The table over all scenes, in Markdown: image MSE and what each method costs.
 pub(super) fn comparison(scenes: &[SceneResults]) -> String {
     let compared = compare(scenes);
     let names: Vec<&str> = scenes.iter().map(|s| s.name.as_str()).collect();
@@ -256,7 +258,7 @@ pub(super) fn comparison(scenes: &[SceneResults]) -> String {
         names.join(" | "),
         "---|".repeat(names.len())
     );
-    let shown = |x: Option<f64>| number(x, |x| format!("{:.3}", x * 1e4));
+    let shown = |x: Option<f64>| number(x, |x| format!("{x:.2e}"));
     for c in &compared {
         let errors: Vec<String> = c.errors.iter().map(|&e| shown(e)).collect();
         text += &format!(
@@ -271,7 +273,7 @@ pub(super) fn comparison(scenes: &[SceneResults]) -> String {
             shown(c.mean)
         );
     }
-    text + "\nImage MSE ×1e-4, lower is better. Bits a pixel: sums, ranges, layers and cores; the colour accumulator stands apart. \
+    text + "\nImage MSE, lower is better. Bits a pixel: sums, ranges, layers and cores; the colour accumulator stands apart. \
         In the geometric mean an error that nobody sees, below a sixteenth of an 8-bit step, counts as that. \
         † depends on the order of the fragments: means over random orders of fragments and of whole objects.\n"
 }
@@ -332,7 +334,8 @@ mod tests {
         assert!(text.contains("multi-layer-alpha:1†") && text.contains("unbounded") && text.contains("interlock"));
     }
 
-    /// The geometric mean by hand; what is exact has that of an error that nobody sees, and stands first; NaN has none, and stands last.
+    /// The geometric mean by hand; what is exact has that of an error that nobody sees, and stands first; NaN has none,
+    /// and stands last.
     #[test]
     fn means_are_geometric() {
         let mut scenes = [scene("a", 0.5), scene("b", 0.25)];

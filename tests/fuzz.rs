@@ -4,6 +4,9 @@
 //! Without further ado each parser sees a few hundred files, the same in every run. `NMT_FUZZ_SECONDS` is a budget in seconds for all parsers together,
 //! `NMT_FUZZ_SEED` another seed. Files that break something stay in `target/tmp/fuzz`.
 
+mod common;
+
+use common::{Workplace, nmt};
 use nmt::dataset::DatasetConfig;
 use nmt::numeric::npy;
 use nmt::oit::Context;
@@ -920,8 +923,8 @@ fn checkpoints() {
 
 #[test]
 fn datasets() {
-    let at = crate::cli::Workplace::new();
-    crate::cli::nmt(&["generate", &at.config(), "--out", &at.path("d"), "--quiet"]).success();
+    let at = Workplace::new();
+    nmt(&["generate", &at.config(), "--out", &at.path("d"), "--quiet"]).success();
     let read = |folder: &Path, name: &str| {
         // The other files stand where they were generated.
         std::fs::copy(folder.join(name), at.path(&format!("d/{name}"))).unwrap();
@@ -985,8 +988,8 @@ fn names_of_methods() {
 
 #[test]
 fn reports() {
-    let at = crate::cli::Workplace::new();
-    crate::cli::nmt(&["run", &at.config(), "--out", &at.path("r/run"), "--quiet"]).success();
+    let at = Workplace::new();
+    nmt(&["run", &at.config(), "--out", &at.path("r/run"), "--quiet"]).success();
     let scene = [
         "--fragments",
         "spheres",
@@ -995,7 +998,7 @@ fn reports() {
         "--methods",
         "moment-power-4,weighted-average",
     ];
-    crate::cli::nmt(&[&["evaluate", "--out", &at.path("r/e"), "--quiet"][..], &scene].concat()).success();
+    nmt(&[&["evaluate", "--out", &at.path("r/e"), "--quiet"][..], &scene].concat()).success();
     let bench = [
         "bench",
         "generate",
@@ -1008,7 +1011,7 @@ fn reports() {
         "--json",
         "--quiet",
     ];
-    let bench = crate::cli::nmt(&bench).success().get_output().stdout.clone();
+    let bench = nmt(&bench).success().get_output().stdout.clone();
     let file = |name: &str| std::fs::read(at.path(name)).unwrap();
     let seeds = vec![
         ("run.json".to_owned(), file("r/run/run.json")),

@@ -1,14 +1,15 @@
 //! `nmt bench tiles`
 
-use super::Verdict;
-use super::predict::SkipName;
-use super::scene::{SceneOptions, load};
-use super::ui::{Ui, table};
 use crate::bench::Summary;
 use crate::bench::tiles::{FrameSamples, Frames, Work, frames};
+use crate::cli::Verdict;
+use crate::cli::bench::Output;
+use crate::cli::predict::SkipName;
+use crate::cli::scene::{SceneOptions, load};
+use crate::cli::ui::{Ui, table};
 use crate::export::Format;
 use crate::gpu::{Gpu, MethodShader};
-use crate::model::file;
+use crate::model::shipped;
 use crate::oit::neural::Skip;
 use anyhow::bail;
 use clap::Args;
@@ -18,29 +19,32 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct BenchTiles {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
-    #[arg(long, value_name = "F.npz|SCENE", num_args = 1.., default_values = ["teapots", "foliage", "hair"])]
+    #[arg(long, value_name = "F.npz|SCENE", value_delimiter = ',', num_args = 1.., default_values = ["teapots", "foliage", "hair"])]
     fragments: Vec<String>,
     /// Networks.
-    #[arg(long, value_name = "MODEL.json", num_args = 1.., required = true)]
+    #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1.., required = true)]
     model: Vec<PathBuf>,
     /// Which fragments to run the network for.
-    #[arg(long, value_enum, num_args = 1.., default_values = ["none", "exact", "visible"])]
+    #[arg(long, value_enum, value_delimiter = ',', num_args = 1.., default_values = ["none", "exact", "visible"])]
     skip: Vec<SkipName>,
     #[command(flatten)]
     options: SceneOptions,
-    /// Repetitions; what is compared takes turns in each.
+    /// Repetitions; each runs everything that is compared, one after the other.
     #[arg(long, value_name = "N", default_value_t = 15)]
     repeat: usize,
+    #[command(flatten)]
+    output: Output,
 }
 
 impl BenchTiles {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        self.output.check()?;
         if !(1..=100_000).contains(&self.repeat) {
             bail!("--repeat {}: must be from 1 to 100000", self.repeat);
         }
         let mut methods = Vec::new();
         for path in &self.model {
-            methods.push(MethodShader::neural(&file::load(path)?, Format::Wgsl)?);
+            methods.push(MethodShader::neural(&shipped::open(path)?, Format::Wgsl)?);
         }
         let skips: Vec<Skip> = self.skip.iter().map(|&skip| skip.into()).collect();
         let gpu = Gpu::shared()?;
@@ -57,15 +61,10 @@ impl BenchTiles {
             }
         }
         progress.finish();
-        if ui.json() {
-            let all = results
-                .iter()
-                .flat_map(|(scene, frames)| frames.samples.iter().map(|s| sample_json(scene, frames, s)));
-            ui.print_json("bench", all.collect())?;
-        } else {
-            ui.print(&text(gpu, &results, self.repeat))?;
-        }
-        Ok(Verdict::Fine)
+        let all = results
+            .iter()
+            .flat_map(|(scene, frames)| frames.samples.iter().map(|s| sample_json(scene, frames, s)));
+        self.output.give(ui, all.collect(), &text(gpu, &results, self.repeat))
     }
 }
 

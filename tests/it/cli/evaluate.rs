@@ -1,0 +1,252 @@
+//! `nmt evaluate`.
+
+use crate::common::{Workplace, json, nmt};
+use nmt::numeric::require::or_skip;
+use predicates::prelude::PredicateBooleanExt;
+use predicates::str::contains;
+use std::path::Path;
+
+/// Methods beside a network on a rendered scene: a table, pictures, a contact sheet, numbers; and the exact method is exact.
+#[test]
+fn evaluate_compares_methods() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["scene", "glass-stacks", "--size", "40x30", "--out", &at.path("g.npz")]).success();
+    let methods = "abuffer,moment-power-4,moment-power-8+own,weighted-average";
+    let evaluate = |out: &str, more: &[&str]| {
+        nmt(&[
+            &[
+                "evaluate",
+                "--fragments",
+                &at.path("g.npz"),
+                "--methods",
+                methods,
+                "--out",
+                &at.path(out),
+            ],
+            more,
+        ]
+        .concat())
+    };
+    evaluate("e", &["--model", &model]).success().stdout(
+        contains("moment-power-4")
+            .and(contains("neural:tiny"))
+            .and(contains("unbounded")),
+    );
+    for file in [
+        "results.json",
+        "g/truth.png",
+        "g/sheet.png",
+        "g/moment-power-4.png",
+        "g/moment-power-4.flip.png",
+        "g/neural-tiny.png",
+    ] {
+        assert!(Path::new(&at.path("e")).join(file).is_file(), "{file}");
+    }
+    evaluate("e", &[]).code(2).stderr(contains("--force"));
+    let report = json(evaluate("e", &["--force", "--json"]));
+    let of = |method: &str| {
+        report["results"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|r| r["method"] == method)
+            .unwrap()
+            .clone()
+    };
+    assert!(
+        of("abuffer")["image_mse"].as_f64().unwrap() < 1e-20
+            && of("abuffer")["transmittance_mse"].as_f64().unwrap() < 1e-20
+    );
+    let (four, average) = (of("moment-power-4"), of("weighted-average"));
+    assert!(four["image_mse"].as_f64().unwrap() < average["image_mse"].as_f64().unwrap());
+    assert!(average["transmittance_mse"].is_null() && four["scene"] == "g");
+
+    evaluate("x", &["--background", "2", "0", "0"])
+        .code(2)
+        .stderr(contains("background"));
+    nmt(&[
+        "evaluate",
+        "--fragments",
+        &at.path("g.npz"),
+        "--methods",
+        "moment-power-5",
+        "--out",
+        &at.path("x"),
+    ])
+    .code(2)
+    .stderr(contains("moment-power-4"));
+    assert!(!Path::new(&at.path("x")).exists());
+}
+
+/// The GPU draws what has a shader, and what has none is named; without a GPU there is an error, and no result.
+#[test]
+fn evaluate_draws_on_the_gpu() {
+    let at = Workplace::new();
+    let small = concat!(env!("CARGO_MANIFEST_DIR"), "/models/small.json");
+    let evaluate = |out: &str, more: &[&str]| {
+        let plain = [
+            "evaluate",
+            "--fragments",
+            "spheres",
+            "--size",
+            "40x30",
+            "--methods",
+            "abuffer,weighted-average",
+            "--model",
+            small,
+            "--out",
+        ];
+        nmt(&[&plain[..], &[&at.path(out), "--gpu"], more].concat())
+    };
+    if or_skip("gpu", nmt::gpu::Gpu::shared()).is_none() {
+        evaluate("e", &[]).code(2).stderr(contains("no GPU adapter"));
+        assert!(!Path::new(&at.path("e")).exists());
+        return;
+    }
+    evaluate("e", &[])
+        .success()
+        .stdout(contains("against the images above").and(contains("abuffer has no shader")));
+    for file in [
+        "neural-small.gpu.png",
+        "neural-small.gpu.flip.png",
+        "weighted-average.gpu.png",
+    ] {
+        assert!(Path::new(&at.path("e/spheres")).join(file).is_file(), "{file}");
+    }
+    assert!(!Path::new(&at.path("e/spheres/abuffer.gpu.png")).exists());
+    for storage in ["full", "half-color", "half"] {
+        let report = json(evaluate("e", &["--force", "--json", "--gpu-storage", storage]));
+        let result = report["results"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|r| r["method"] == "neural:small")
+            .unwrap();
+        let gpu = &result["gpu"];
+        let within = gpu["channel_difference_999"].as_f64().unwrap();
+        assert!(
+            within <= if storage == "full" { 1e-3 } else { 0.05 },
+            "{storage}: {within}"
+        );
+        assert!(
+            gpu["seconds_weights"].as_f64().unwrap() > 0.0
+                && !gpu["adapter"].as_str().unwrap().is_empty()
+                && gpu["image_nonfinite"] == 0
+        );
+    }
+    nmt(&[
+        "evaluate",
+        "--fragments",
+        "spheres",
+        "--out",
+        &at.path("x"),
+        "--gpu-storage",
+        "half",
+    ])
+    .code(2)
+    .stderr(contains("--gpu"));
+}
+
+/// Without colours and size there are errors of T, and a word about the missing pictures.
+#[test]
+fn evaluate_does_without_pictures() {
+    let at = Workplace::new();
+    nmt(&[
+        "generate",
+        &at.config(),
+        "--out",
+        &at.path("d"),
+        "--fragments",
+        &at.path("f.npz"),
+    ])
+    .success();
+    nmt(&[
+        "evaluate",
+        "--fragments",
+        &at.path("f.npz"),
+        "--methods",
+        "moment-power-6",
+        "--out",
+        &at.path("e"),
+    ])
+    .success()
+    .stdout(contains("no pictures").and(contains("moment-power-6")));
+    nmt(&[
+        "evaluate",
+        "--fragments",
+        &at.path("f.npz"),
+        "--methods",
+        "low-resolution-moments:2",
+        "--out",
+        &at.path("e"),
+        "--force",
+    ])
+    .code(2)
+    .stdout(contains("not applied"));
+}
+
+/// After a prepass the answers are others, and not worse in a scene of thin pixels.
+#[test]
+fn a_prepass_helps_thin_pixels() {
+    let at = Workplace::new();
+    let model = format!("{}/models/recommended.json", env!("CARGO_MANIFEST_DIR"));
+    let evaluate = [
+        "evaluate",
+        "--fragments",
+        "smoke",
+        "--size",
+        "64x64",
+        "--model",
+        &model,
+        "--methods",
+        "abuffer",
+        "--depth-range",
+        "0.001",
+        "10000",
+    ];
+    let report = json(nmt(
+        &[&evaluate[..], &["--prepass", "--out", &at.path("e"), "--json"]].concat()
+    ));
+    let mse = |name: &str| {
+        let results = report["results"].as_array().unwrap();
+        results
+            .iter()
+            .find(|r| r["method"] == name)
+            .and_then(|r| r["transmittance_mse"].as_f64())
+            .unwrap_or_else(|| panic!("{name}"))
+    };
+    assert!(mse("neural:recommended @ prepass") < mse("neural:recommended"));
+    let sample = format!("{}/data/sample.npz", env!("CARGO_MANIFEST_DIR"));
+    let predict = |prepass: &[&str], out: &str| {
+        json(nmt(&[
+            &[
+                "predict",
+                &model,
+                "--fragments",
+                &sample,
+                "--out",
+                &at.path(out),
+                "--json",
+            ],
+            prepass,
+        ]
+        .concat()))["results"][0]["frame"]
+            .clone()
+    };
+    assert_eq!(
+        (predict(&[], "a.npy"), predict(&["--prepass"], "b.npy")),
+        ("scene".into(), "pixel".into())
+    );
+    assert_ne!(
+        std::fs::read(at.path("a.npy")).unwrap(),
+        std::fs::read(at.path("b.npy")).unwrap()
+    );
+    nmt(&[
+        &evaluate[..5],
+        &["--methods", "abuffer", "--prepass", "--out", &at.path("x")],
+    ]
+    .concat())
+    .code(2)
+    .stderr(contains("--model"));
+}
