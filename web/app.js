@@ -43,6 +43,8 @@ let dirty = true;
 let restless = 0;
 let busy = false;
 let stopped = false;
+/** View and method that could not be drawn: they are not tried again. */
+let broken = "";
 
 function say(html) {
   $("message").hidden = !html;
@@ -134,7 +136,7 @@ async function tick(now) {
   const stale = latest()?.view !== viewNumber;
   const rested = now - restless > 220;
   const periodic = state.turn && now - (tick.measured ?? 0) > 700;
-  if (!dirty && !(stale && rested)) return;
+  if ((!dirty && !(stale && rested)) || broken === `${view} ${name}`) return;
   dirty = false;
   const measure = (stale && rested && !state.turn) || periodic;
   if (measure) tick.measured = now;
@@ -146,7 +148,7 @@ async function tick(now) {
     if (found && view === viewNumber && !found.skipped) keep(name, found);
     else if (found && state.turn) keep(name, found);
   } catch (error) {
-    stopped = true;
+    broken = `${view} ${name}`;
     fail(error);
   }
 }
@@ -225,8 +227,8 @@ function showMeasurements() {
     row.classList.toggle("best", others.length > 1 && !exact && found?.view === viewNumber && found.mse === best);
   }
   const facts = [
-    ["", `<b>${escape(renderer.adapter)}</b>, ${renderer.api}`],
-    ["", `${renderer.width} × ${renderer.height}`, "more"],
+    ["", `<b>${escape(renderer.adapter)}</b><span>, ${renderer.api}</span>`],
+    ...(renderer.width ? [["", `${renderer.width} × ${renderer.height}`, "more"]] : []),
   ];
   if (now) {
     const mean = now.covered ? now.fragments / now.covered : 0;
@@ -280,6 +282,15 @@ function showState() {
     row.title = reason ? `${method(row.dataset.name).title} ${reason}` : method(row.dataset.name).note;
   }
   showMeasurements();
+  // The address opens what is shown.
+  for (const [name, value] of [
+    ["scene", scene?.name],
+    ["method", state.method],
+    ["view", state.mode],
+  ]) {
+    if (value && value !== "file") query.set(name, value);
+  }
+  history.replaceState(null, "", `?${query.toString().replace(/=(?=&|$)/g, "")}`);
 }
 
 function showNotes(notes) {
@@ -427,6 +438,7 @@ async function save() {
 function watchPointer() {
   const canvas = $("canvas");
   const pointers = new Map();
+  const at = ({ clientX, clientY }) => ({ clientX, clientY });
   const orbit = (dx, dy) => {
     state.camera.yaw -= dx * 0.008;
     state.camera.pitch = Math.min(1.5, Math.max(-0.15, state.camera.pitch + dy * 0.006));
@@ -447,7 +459,7 @@ function watchPointer() {
   canvas.addEventListener("pointerdown", (event) => {
     if (scene?.size) return;
     canvas.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, event);
+    pointers.set(event.pointerId, { ...at(event), button: event.button, pointerId: event.pointerId });
     state.turn = $("turn").checked = false;
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -463,7 +475,7 @@ function watchPointer() {
       zoom(span(before) / Math.max(1, span(event)));
       pan(dx / 2, dy / 2);
     }
-    pointers.set(event.pointerId, Object.assign(event, {}));
+    pointers.set(event.pointerId, { ...at(event), button: before.button, pointerId: event.pointerId });
   });
   for (const end of ["pointerup", "pointercancel"])
     canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));

@@ -24,7 +24,7 @@ void main() {
 out vec4 result;
 
 vec3 studio(float height) {
-    return mix(vec3(0.80, 0.80, 0.82), vec3(0.93, 0.94, 0.96), smoothstep(-0.2, 1.0, height));
+    return mix(vec3(0.70, 0.71, 0.74), vec3(0.90, 0.91, 0.94), smoothstep(-0.2, 1.0, height));
 }
 
 #if PART == 0
@@ -45,7 +45,7 @@ float line(float x, float width) {
 void main() {
     float height = 2.0 * gl_FragCoord.y / frame.size.y - 1.0;
     float lines = max(line(v_at.x * 2.0, 0.012), line(v_at.y * 2.0, 0.012));
-    vec3 color = vec3(0.86, 0.865, 0.88) * (1.0 - 0.32 * lines);
+    vec3 color = vec3(0.78, 0.785, 0.80) * (1.0 - 0.25 * lines);
     vec3 light = textureLod(shadow, 0.5 + 0.5 * v_at / frame.floor_side, 0.0).rgb;
     color *= max(abs(v_at.x), abs(v_at.y)) < frame.floor_side ? light : vec3(1.0);
     float fade = smoothstep(0.5 * frame.floor_side, 2.0 * frame.floor_side, length(v_at));

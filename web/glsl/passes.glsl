@@ -82,7 +82,7 @@ void main() {
     if (found.alpha < 0.0) {
         discard;
     }
-    accumulate(found);
+    accumulate(found, at());
 }
 #elif PASS == SECOND
 layout(location = 0) out vec4 result;

@@ -1,6 +1,6 @@
 // Twin of wgsl/wavelet.wgsl.
-float wavelet_place(float z) {
-    return clamp(0.5 + 0.5 * z, 0.0, 1.0) * 0.9375;
+float wavelet_place(float v, vec2 ends) {
+    return clamp((v - ends.x) / max(ends.y - ends.x, 1e-30), 0.0, 1.0) * 0.9375;
 }
 
 float wavelet_term(float x, float j, float absorbance) {
@@ -12,8 +12,7 @@ vec4 wavelet_one(int at, float value) {
     return vec4(at == 0 ? value : 0.0, at == 1 ? value : 0.0, at == 2 ? value : 0.0, at == 3 ? value : 0.0);
 }
 
-void wavelet_terms(float z, float absorbance, out vec4 c[4]) {
-    float x = wavelet_place(z);
+void wavelet_terms(float x, float absorbance, out vec4 c[4]) {
     float first = wavelet_term(x, 1.0, absorbance);
     c[0] = vec4(absorbance * (1.0 - x), wavelet_term(x, 0.0, absorbance), x < 0.5 ? first : 0.0, x < 0.5 ? 0.0 : first);
     c[1] = wavelet_one(int(x * 4.0), wavelet_term(x, 2.0, absorbance));
@@ -32,8 +31,8 @@ float wavelet_value(vec4 c[4], int i) {
     return value;
 }
 
-float wavelet_transmittance(vec4 c[4], float z) {
-    float x = wavelet_place(z) * 16.0;
+float wavelet_transmittance(vec4 c[4], float place) {
+    float x = place * 16.0;
     int i = int(x);
     float before = i > 0 ? wavelet_value(c, max(i, 1) - 1) : 0.0;
     return clamp(exp(-mix(before, wavelet_value(c, i), fract(x))), 0.0, 1.0);

@@ -6,13 +6,11 @@ import { fileURLToPath } from "node:url";
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const from = here("../shaders/");
 fs.rmSync(here("shaders"), { recursive: true, force: true });
-fs.mkdirSync(here("shaders"));
-const names = fs.readdirSync(from).filter((name) => /\.(wgsl|glsl|hlsl|metal|md)$/.test(name));
-for (const name of names) fs.copyFileSync(from + name, here(`shaders/${name}`));
+fs.cpSync(from, here("shaders"), { recursive: true });
 
 const networks = ["recommended", "small"];
 const lines = networks.map((name) => {
-  const source = fs.readFileSync(`${from}${name}.wgsl`, "utf8");
+  const source = fs.readFileSync(`${from}${name}/${name}.wgsl`, "utf8");
   return `/** WGSL of the network '${name}'. */\nexport const ${name} = ${JSON.stringify(source)};\n`;
 });
 fs.writeFileSync(here("networks.js"), `// Made by build.mjs of the files in shaders/.\n\n${lines.join("\n")}`);

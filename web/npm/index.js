@@ -49,15 +49,15 @@ const NOTHING = -3e38;
 export function whyUnsupported(renderer) {
   const { backend } = renderer;
   if (backend?.isWebGPUBackend !== true)
-    return "nmtPass needs WebGPU, and this renderer draws with WebGL; use oitPass there.";
+    return "nmtPass needs WebGPU, but this renderer draws with WebGL; use oitPass.";
   if (!backend.device) return "nmtPass: call 'await renderer.init()' first.";
   if (!backend.device.features.has("float32-blendable")) {
-    return "nmtPass needs blending into 32-bit float targets (float32-blendable), which this device lacks; use oitPass there.";
+    return "nmtPass needs 'float32-blendable', which this device lacks; use oitPass.";
   }
   return null;
 }
 
-/** Whether a material is drawn by this pass: transparent, blended normally, with nothing that reads what is behind it. */
+/** Whether this pass draws a material: transparent, blended normally, without looking at what is behind it. */
 const isDrawnHere = (material) =>
   material.transparent === true &&
   material.blending === NormalBlending &&
@@ -66,39 +66,25 @@ const isDrawnHere = (material) =>
   material.transmissionNode?.isNode !== true &&
   material.backdropNode?.isNode !== true;
 
-// The network's functions hold arrays, which TSL does not know; these wrappers have vectors.
-const PASS1 = `
-fn nmt_three_sums( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
-    let A = nmt_absorbance( alpha );
-    let b = nmt_moments( nmt_moment_depth( v, range.x, range.y ), A );
-    return vec4<f32>( A, b[ 0 ], b[ 1 ], b[ 2 ] );
-}`;
-const PASS1_LAST = `
-fn nmt_three_last( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
-    let b = nmt_moments( nmt_moment_depth( v, range.x, range.y ), nmt_absorbance( alpha ) );
-    return vec4<f32>( b[ 3 ], 1.0, 0.0, 0.0 );
+// TSL knows vectors, and no structures: a call for each target of pass 1.
+const pass1 = (field) => `
+fn nmt_three_${field}( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
+    return nmt_pass1( v, range.x, range.y, alpha ).${field};
 }`;
 // Both passes are compiled apart, so that v may differ in its last bits: what is next to an end is the end.
 const PASS2 = `
 fn nmt_three_transmittance(
-    v0: f32, alpha: f32, range: vec2<f32>, b0123: vec4<f32>, b4_n: vec4<f32>, ends: vec4<f32>
+    v0: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>, ends: vec4<f32>
 ) -> f32 {
-    let nearest = -ends.x;
-    let farthest = ends.y;
-    var v = clamp( v0, nearest, farthest );
-    if ( farthest - v < 1e-6 * v ) { v = farthest; }
-    if ( v - nearest < 1e-6 * v ) { v = nearest; }
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth( v, range.x, range.y ), nmt_absorbance( alpha ), nearest, farthest,
-        nmt_moment_depth( nearest, range.x, range.y ), nmt_moment_depth( farthest, range.x, range.y ),
-        b4_n.y, b0123.x, array<f32, 4>( b0123.y, b0123.z, b0123.w, b4_n.x )
-    );
+    var v = clamp( v0, -ends.x, ends.y );
+    if ( ends.y - v < 1e-6 * v ) { v = ends.y; }
+    if ( v + ends.x < 1e-6 * v ) { v = -ends.x; }
+    return nmt_pass2( v, range.x, range.y, alpha, sums0, sums1, ends );
 }`;
 const RESOLVE = `
-fn nmt_three_resolve( behind_color: vec4<f32>, sum: vec4<f32>, b0: f32 ) -> vec4<f32> {
-    let behind = exp( -b0 );
-    let scale = select( 0.0, ( 1.0 - behind ) / max( sum.a, 1e-37 ), sum.a > 0.0 );
-    return vec4<f32>( scale * sum.rgb + behind * behind_color.rgb, 1.0 - behind * ( 1.0 - behind_color.a ) );
+fn nmt_three_resolve( background: vec4<f32>, weighted: vec4<f32>, sums0: vec4<f32> ) -> vec4<f32> {
+    let over = nmt_resolve( weighted, sums0 );
+    return vec4<f32>( over.rgb + over.a * background.rgb, 1.0 - over.a * ( 1.0 - background.a ) );
 }`;
 
 function added(equation) {
@@ -129,7 +115,7 @@ export class NMTPassNode extends PassNode {
       const names = Object.keys(networks).join(", ");
       throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
     }
-    for (const name of ["nmt_absorbance", "nmt_moments", "nmt_moment_depth", "nmt_fragment_transmittance"]) {
+    for (const name of ["nmt_pass1", "nmt_pass2", "nmt_resolve"]) {
       if (!source.includes(`fn ${name}(`)) {
         throw new Error(
           `nmtPass: the network's WGSL has no function ${name}; export a recentred network of four moments.`,
@@ -142,9 +128,9 @@ export class NMTPassNode extends PassNode {
     // Both keep the depth of the opaque objects, which transparent ones are tested against.
     this._sums = new RenderTarget(1, 1, { count: 3 });
     this._sums.depthTexture = this.renderTarget.depthTexture;
-    plain(this._sums.textures[0], "b0123", FloatType);
-    plain(this._sums.textures[1], "b4_n", FloatType, RGFormat);
-    plain(this._sums.textures[2], "ends", FloatType, RGFormat);
+    plain(this._sums.textures[0], "sums0", FloatType);
+    plain(this._sums.textures[1], "sums1", FloatType, RGFormat);
+    plain(this._sums.textures[2], "range", FloatType, RGFormat);
     this._weighted = new RenderTarget(1, 1, { count: 1 });
     this._weighted.depthTexture = this.renderTarget.depthTexture;
     plain(this._weighted.textures[0], "weighted", HalfFloatType);
@@ -173,17 +159,14 @@ export class NMTPassNode extends PassNode {
       const alpha = output.a.clamp(0, 1);
       const given = { v, alpha, range: this._range };
       const includes = [this._source];
-      const sums = mrt({
-        b0123: wgslFn(PASS1, includes)(given),
-        b4_n: wgslFn(PASS1_LAST, includes)(given),
-        ends: vec4(v.negate(), v, 0, 0),
-      });
-      sums.setBlendMode("b0123", added()).setBlendMode("b4_n", added()).setBlendMode("ends", added(MaxEquation));
-      sums.setClearColor("b0123", new Color(0, 0, 0), 0).setClearColor("b4_n", new Color(0, 0, 0), 0);
-      sums.setClearColor("ends", new Color(NOTHING, NOTHING, 0), 0);
+      const call = (field) => wgslFn(pass1(field), includes)(given);
+      const sums = mrt({ sums0: call("sums0"), sums1: call("sums1"), range: call("range") });
+      sums.setBlendMode("sums0", added()).setBlendMode("sums1", added()).setBlendMode("range", added(MaxEquation));
+      sums.setClearColor("sums0", new Color(0, 0, 0), 0).setClearColor("sums1", new Color(0, 0, 0), 0);
+      sums.setClearColor("range", new Color(NOTHING, NOTHING, 0), 0);
       const at = ivec2(screenCoordinate.xy);
-      const [b0123, b4_n, ends] = this._sums.textures.map((t) => textureLoad(t, at));
-      const T = wgslFn(PASS2, includes)({ v0: v, alpha, range: this._range, b0123, b4_n, ends });
+      const [sums0, sums1, ends] = this._sums.textures.map((t) => textureLoad(t, at));
+      const T = wgslFn(PASS2, includes)({ v0: v, alpha, range: this._range, sums0, sums1, ends });
       const share = alpha.mul(T);
       const weighted = mrt({ weighted: vec4(output.rgb.mul(share), share) });
       weighted.setBlendMode("weighted", added()).setClearColor("weighted", new Color(0, 0, 0), 0);
@@ -205,9 +188,9 @@ export class NMTPassNode extends PassNode {
     if (why !== null) throw new Error(why);
     const opaque = super.setup(builder);
     const at = ivec2(screenCoordinate.xy);
-    const sum = textureLoad(this._weighted.textures[0], at);
-    const b0 = textureLoad(this._sums.textures[0], at).x;
-    return wgslFn(RESOLVE)({ behind_color: opaque, sum, b0 });
+    const weighted = textureLoad(this._weighted.textures[0], at);
+    const sums0 = textureLoad(this._sums.textures[0], at);
+    return wgslFn(RESOLVE, [this._source])({ background: opaque, weighted, sums0 });
   }
 
   /** View depths that hold every transparent object. */

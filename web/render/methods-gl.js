@@ -19,7 +19,8 @@ float total(ivec2 at) {
 
 function network(name) {
   return {
-    functions: [`web/shaders/${name}.glsl`],
+    rounds: true,
+    functions: [`web/shaders/${name}/${name}.glsl`],
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
     ends: true,
@@ -27,22 +28,18 @@ function network(name) {
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
-void accumulate(Surface s) {
-    float a = nmt_absorbance(s.alpha);
-    float b[4] = nmt_moments(nmt_moment_depth(s.v, frame.range.x, frame.range.y), a);
-    out0 = vec4(a, b[0], b[1], b[2]);
-    out1 = vec4(b[3], 1.0, 0.0, 0.0);
+void accumulate(Surface s, ivec2 at) {
+    NmtSums sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
+    out0 = sums.sums0;
+    out1 = sums.sums1;
 }
 `,
     weight: `
 float weight(Surface s, ivec2 at) {
-    vec4 b0123 = texelFetch(target0, at, 0);
-    vec2 b4_n = texelFetch(target1, at, 0).xy;
     vec2 ends = ends_of(at);
-    return nmt_fragment_transmittance(
-        s.v, nmt_moment_depth(s.v, frame.range.x, frame.range.y), nmt_absorbance(s.alpha), ends.x, ends.y,
-        nmt_moment_depth(ends.x, frame.range.x, frame.range.y), nmt_moment_depth(ends.y, frame.range.x, frame.range.y),
-        b4_n.y, b0123.x, float[4](b0123.y, b0123.z, b0123.w, b4_n.x));
+    return nmt_pass2(
+        s.v, frame.range.x, frame.range.y, s.alpha,
+        texelFetch(target0, at, 0), texelFetch(target1, at, 0), vec4(-ends.x, ends.y, 0.0, 0.0));
 }
 `,
     total: FIRST_IS_TOTAL,
@@ -59,7 +56,7 @@ export const GL_METHODS = {
     common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     out0 = vec4(absorbance_of(s.alpha), 0.0, 0.0, 0.0);
 }
 `,
@@ -79,7 +76,7 @@ float weight(Surface s, ivec2 at) {
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     float a = absorbance_of(s.alpha);
     float z = depth_of(s.v);
     out0 = a * vec4(1.0, z, z * z, z * z * z);
@@ -99,15 +96,17 @@ float weight(Surface s, ivec2 at) {
     functions: ["web/glsl/wavelet.glsl"],
     formats: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
     half: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
+    ends: true,
+    prepass: true,
     common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
 layout(location = 2) out vec4 out2;
 layout(location = 3) out vec4 out3;
-void accumulate(Surface s) {
+void accumulate(Surface s, ivec2 at) {
     vec4 c[4];
-    wavelet_terms(depth_of(s.v), absorbance_of(s.alpha), c);
+    wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha), c);
     out0 = c[0];
     out1 = c[1];
     out2 = c[2];
@@ -116,13 +115,13 @@ void accumulate(Surface s) {
 `,
     weight: `
 float weight(Surface s, ivec2 at) {
-    float z = depth_of(s.v);
+    float x = wavelet_place(s.v, ends_of(at));
     vec4 own[4];
-    wavelet_terms(z, absorbance_of(s.alpha), own);
+    wavelet_terms(x, absorbance_of(s.alpha), own);
     vec4 others[4] = vec4[4](
         texelFetch(target0, at, 0) - own[0], texelFetch(target1, at, 0) - own[1],
         texelFetch(target2, at, 0) - own[2], texelFetch(target3, at, 0) - own[3]);
-    return wavelet_transmittance(others, z);
+    return wavelet_transmittance(others, x);
 }
 `,
     total: `

@@ -5,7 +5,7 @@
 
 const SUMS_OF_MOMENTS = `
 struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4: f32 }
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     let a = absorbance_of(s.alpha);
     let z = depth_of(s.v);
     return Sums(a * vec4<f32>(1.0, z, z * z, z * z * z), a * z * z * z * z);
@@ -23,6 +23,12 @@ fn depth_of(v: f32) -> f32 {
 }
 `;
 
+const FIRST_IS_TOTAL = `
+fn total(at: vec2<i32>) -> f32 {
+    return textureLoad(target0, at, 0).x;
+}
+`;
+
 const add = (format) => ({ format, operation: "add", clear: [0, 0, 0, 0] });
 const ENDS = { format: "rg32float", operation: "max", clear: [-3e38, -3e38, 0, 0] };
 
@@ -34,35 +40,28 @@ function network(name, title, note) {
     note,
     kind: "blended",
     bits: 32 * 8,
-    functions: [`web/shaders/${name}.wgsl`],
+    functions: [`web/shaders/${name}/${name}.wgsl`],
     targets: [add("rgba32float"), add("rg32float"), ENDS],
+    rounds: true,
     // Sums as f16 where f32 cannot be blended into; the ends are then two depth buffers.
     half: { targets: [add("rgba16float"), add("rg16float")], bits: 16 * 6 + 64 },
     accumulate: `
-struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4_n: vec2<f32>, @location(2) ends: vec2<f32> }
-fn accumulate(s: Surface) -> Sums {
-    let a = nmt_absorbance(s.alpha);
-    let b = nmt_moments(nmt_moment_depth(s.v, frame.range.x, frame.range.y), a);
-    return Sums(vec4<f32>(a, b[0], b[1], b[2]), vec2<f32>(b[3], 1.0), vec2<f32>(-s.v, s.v));
+struct Sums { @location(0) sums0: vec4<f32>, @location(1) sums1: vec2<f32>, @location(2) range: vec2<f32> }
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
+    let sums = nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha);
+    return Sums(sums.sums0, sums.sums1.xy, sums.range.xy);
 }
 `,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
-    let b0123 = textureLoad(target0, at, 0);
-    let b4_n = textureLoad(target1, at, 0);
     let ends = ends_of(at);
-    return nmt_fragment_transmittance(
-        s.v, nmt_moment_depth(s.v, frame.range.x, frame.range.y), nmt_absorbance(s.alpha), ends.x, ends.y,
-        nmt_moment_depth(ends.x, frame.range.x, frame.range.y), nmt_moment_depth(ends.y, frame.range.x, frame.range.y),
-        b4_n.y, b0123.x, array<f32, 4>(b0123.y, b0123.z, b0123.w, b4_n.x),
+    return nmt_pass2(
+        s.v, frame.range.x, frame.range.y, s.alpha,
+        textureLoad(target0, at, 0), textureLoad(target1, at, 0), vec4<f32>(-ends.x, ends.y, 0.0, 0.0),
     );
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   };
 }
 
@@ -91,7 +90,7 @@ export const METHODS = [
     half: { targets: [add("r16float")], bits: 16 },
     accumulate: `${COMMON}
 struct Sums { @location(0) b0: f32 }
-fn accumulate(s: Surface) -> Sums {
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
     return Sums(absorbance_of(s.alpha));
 }
 `,
@@ -100,11 +99,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     return weight_mb13_9(s.v, 0.0, s.alpha);
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   },
   {
     name: "moment-power-4",
@@ -122,21 +117,21 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     return select(power_transmittance_4(b, depth_of(s.v), 0.25), 1.0, b0123.x == 0.0);
 }
 `,
-    total: `
-fn total(at: vec2<i32>) -> f32 {
-    return textureLoad(target0, at, 0).x;
-}
-`,
+    total: FIRST_IS_TOTAL,
   },
   {
     name: "wavelet",
-    title: "Wavelet, 16 coefficients",
-    note: "Aizenshtein, Smal and McGuire 2022: optical depth in a Haar basis, the fragment itself taken out",
+    title: "Wavelet, rank 3",
+    note: "Aizenshtein, Smal and McGuire 2022: 16 Haar coefficients over the pixel's own range, found by a prepass",
     kind: "blended",
-    bits: 256,
+    bits: 256 + 64,
+    prepass: true,
     functions: ["web/wgsl/wavelet.wgsl"],
     targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
-    half: { targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")], bits: 256 },
+    half: {
+      targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
+      bits: 256 + 64,
+    },
     accumulate: `${COMMON}
 struct Sums {
     @location(0) c0: vec4<f32>,
@@ -144,20 +139,20 @@ struct Sums {
     @location(2) c2: vec4<f32>,
     @location(3) c3: vec4<f32>,
 }
-fn accumulate(s: Surface) -> Sums {
-    let c = wavelet_terms(depth_of(s.v), absorbance_of(s.alpha));
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
+    let c = wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha));
     return Sums(c[0], c[1], c[2], c[3]);
 }
 `,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
-    let z = depth_of(s.v);
-    let own = wavelet_terms(z, absorbance_of(s.alpha));
+    let x = wavelet_place(s.v, ends_of(at));
+    let own = wavelet_terms(x, absorbance_of(s.alpha));
     let others = array<vec4<f32>, 4>(
         textureLoad(target0, at, 0) - own[0], textureLoad(target1, at, 0) - own[1],
         textureLoad(target2, at, 0) - own[2], textureLoad(target3, at, 0) - own[3],
     );
-    return wavelet_transmittance(others, z);
+    return wavelet_transmittance(others, x);
 }
 `,
     total: `
@@ -169,8 +164,33 @@ fn total(at: vec2<i32>) -> f32 {
 }
 `,
   },
-  network("small", "Network: small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
-  network("recommended", "Network: recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  network("small", "Network small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
+  network("recommended", "Network recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  {
+    name: "core-6",
+    title: "Core of 6",
+    note: "both ends and the six heaviest fragments by atomics, the rest by mean and spread; no network",
+    kind: "blended",
+    bits: 4 * 32 + 8 * 32,
+    slots: 8,
+    fill: {
+      CORE_DEPTH_BITS: "16",
+      CORE_OCTAVE_BITS: "11",
+      CORE_HEAVY: "6",
+      CORE_SLOTS: "8",
+      CORE_KEY_SCALE: "0.375",
+      CORE_LAST_ABSORBANCE: "27136",
+      CORE_GROUP: "1",
+      CORE_BINDING: "8",
+    },
+    functions: ["web/shaders/core/codes.wgsl", "web/wgsl/core.wgsl"],
+    first: ["web/shaders/core/insert.wgsl", "web/wgsl/core-first.wgsl"],
+    second: ["web/wgsl/core-second.wgsl"],
+    targets: [add("rgba32float")],
+    accumulate: "",
+    weight: "",
+    total: FIRST_IS_TOTAL,
+  },
 ];
 
 /** A method by its name. */

@@ -193,7 +193,7 @@ export function shadowOf(scene) {
     for (let i = 0; i < size * size; i++) {
       const edge = Math.min(i % size, size - 1 - (i % size), Math.floor(i / size), size - 1 - Math.floor(i / size));
       const fade = Math.min(1, edge / 20);
-      out[4 * i + c] = Math.round(255 * (1 - fade * (1 - Math.exp(-0.55 * plane[i]))));
+      out[4 * i + c] = Math.round(255 * (1 - 0.6 * fade * (1 - Math.exp(-0.5 * plane[i]))));
     }
   }
   return out;
@@ -218,3 +218,12 @@ function blurred(plane, size, reach) {
 /** What the exact image depends on, besides scene and size; an image is drawn again when it changes. */
 export const exactKey = (renderer, { camera, opacity, backdrop, oneColor, transparentOnly }) =>
   JSON.stringify([camera, opacity, backdrop, !!oneColor, !!transparentOnly, renderer.bands]);
+
+/**
+ * A network's source for sums that are stored in 16 bits: what thin pixels take for noise follows from how sums are
+ * rounded, here to 2^-10 of b0 instead of 2^-23.
+ */
+export function rounded(source, constant) {
+  if (!constant.test(source)) throw new Error(`the network's source has no ${constant}`);
+  return source.replace(constant, "$19.765625e-4;");
+}

@@ -12,6 +12,7 @@ import {
   shadowOf,
   sortedSplats,
   viewOf,
+  rounded,
 } from "./shared.js";
 import { GL_METHODS } from "./methods-gl.js";
 import { method } from "./methods.js";
@@ -185,7 +186,7 @@ export class WebGlRenderer {
             if (!this.blends32)
               functions = functions.replace(/(const float \w*NMT_ROUNDING = )[^;]+;/, "$19.765625e-4;");
             functions = m.common + functions;
-            if (pass === "FIRST") functions += m.accumulate;
+            if (pass === "FIRST") functions += (m.prepass ? this.endsText(m) : "") + m.accumulate;
             else functions += this.stateText(m) + (pass === "SECOND" ? m.weight : m.total);
           }
           const source = `${frame}\n${geometry}\n${functions}\n${await text("web/glsl/passes.glsl")}`;
@@ -198,6 +199,11 @@ export class WebGlRenderer {
 
   stateText(m) {
     let out = m.formats.map((_, i) => `uniform sampler2D target${i};\n`).join("");
+    return out + this.endsText(m);
+  }
+
+  endsText(m) {
+    let out = "";
     if (m.ends && this.blends32) {
       out +=
         "uniform sampler2D ends;\n" +
@@ -483,21 +489,14 @@ export class WebGlRenderer {
     const m = GL_METHODS[name];
     const formats = this.blends32 ? m.formats : m.half;
     const targets = formats.map((format, i) => [`target ${i}`, format]);
-    this.into(targets, "depth");
-    targets.forEach((_, i) => this.clear(i, [0, 0, 0, 0]));
-    this.state({ blend: {} });
-    this.use(first);
-    this.drawTransparent();
-    const state = Object.fromEntries(
-      targets.map(([target, format], i) => [`target${i}`, this.texture(target, format)]),
-    );
+    const endsOnly = {};
     if (m.ends && this.blends32) {
       this.into([["ends", "rg32f"]], "depth");
       this.clear(0, [-3e38, -3e38, 0, 0]);
       this.state({ blend: { equation: "MAX" } });
       this.use(ends);
       this.drawTransparent();
-      state.ends = this.texture("ends", "rg32f");
+      endsOnly.ends = this.texture("ends", "rg32f");
     } else if (m.ends) {
       for (const [end, depth, start] of [
         ["nearest", "LESS", 1],
@@ -508,9 +507,18 @@ export class WebGlRenderer {
         gl.clearBufferfv(gl.DEPTH, 0, [start]);
         this.use(ends, { opaque_depth: this.texture("depth", "depth") });
         this.drawTransparent();
-        state[end] = this.texture(end, "depth");
+        endsOnly[end] = this.texture(end, "depth");
       }
     }
+    const state = Object.fromEntries(
+      targets.map(([target, format], i) => [`target${i}`, this.texture(target, format)]),
+    );
+    Object.assign(state, endsOnly);
+    this.into(targets, "depth");
+    targets.forEach((_, i) => this.clear(i, [0, 0, 0, 0]));
+    this.state({ blend: {} });
+    this.use(first, m.prepass ? endsOnly : {});
+    this.drawTransparent();
     this.into([["weighted", this.color]], "depth");
     this.clear(0, [0, 0, 0, 0]);
     this.state({ blend: {} });

@@ -12,6 +12,7 @@ import {
   shadowOf,
   sortedSplats,
   viewOf,
+  rounded,
 } from "./shared.js";
 import { method } from "./methods.js";
 import { text, texts } from "./text.js";
@@ -48,7 +49,7 @@ export class WebGpuRenderer {
         "This adapter has no storage buffers in fragment shaders, which exact lists and stored fragments need.",
       );
     }
-    const bytes = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize, 1 << 29);
+    const bytes = Math.min(limits.maxStorageBufferBindingSize, limits.maxBufferSize, 1 << 28);
     const device = await adapter.requestDevice({
       requiredFeatures: features,
       requiredLimits: { maxStorageBufferBindingSize: bytes, maxBufferSize: Math.max(bytes, 1 << 28) },
@@ -169,19 +170,35 @@ export class WebGpuRenderer {
         visibility: FRAGMENT,
         texture: { sampleType: "unfilterable-float" },
       }));
-      if (plan.ends === "depth") {
-        for (const binding of [6, 7]) entries.push({ binding, visibility: FRAGMENT, texture: { sampleType: "depth" } });
-      }
+      entries.push(...this.endsEntries(plan));
       if (plan.slots) entries.push({ binding: 8, visibility: FRAGMENT, buffer: { type: "read-only-storage" } });
       this.layouts[key] = this.device.createBindGroupLayout({ label: key, entries });
     }
     return this.layouts[key];
   }
 
-  /** How a blended method is laid out here: targets, where the ends are, number of slots in memory. */
+  /** Layout entries of ends that have textures of their own. */
+  endsEntries({ ends }) {
+    const entry = (binding, sampleType) => ({ binding, visibility: GPUShaderStage.FRAGMENT, texture: { sampleType } });
+    if (ends === "depth") return [entry(6, "depth"), entry(7, "depth")];
+    return ends === "before" ? [entry(5, "unfilterable-float")] : [];
+  }
+
+  /** Layout of the ends alone, for methods whose pass 1 looks at them. */
+  endsLayout(plan) {
+    const key = `ends ${plan.ends}`;
+    this.layouts[key] ??= this.device.createBindGroupLayout({ label: key, entries: this.endsEntries(plan) });
+    return this.layouts[key];
+  }
+
+  /**
+   * How a blended method is laid out here: its targets, number of slots in memory, and where the ends of a pixel are:
+   * in the last target, in a target that is drawn before pass 1, or in two depth buffers.
+   */
   plan(m) {
     const wide = this.blends32;
-    const ends = m.targets.some((t) => t.operation === "max") ? (wide ? "blended" : "depth") : "none";
+    const blended = m.targets.some((t) => t.operation === "max") ? "blended" : "none";
+    const ends = !wide && (m.prepass || blended === "blended") ? "depth" : m.prepass ? "before" : blended;
     return { targets: wide ? m.targets : m.half.targets, ends, slots: m.slots ?? 0 };
   }
 
@@ -189,10 +206,18 @@ export class WebGpuRenderer {
   stateText(m) {
     const plan = this.plan(m);
     let out = plan.targets.map((_, i) => `@group(1) @binding(${i}) var target${i}: texture_2d<f32>;\n`).join("");
-    if (plan.ends === "blended") {
-      const last = plan.targets.length - 1;
+    out += this.endsText(plan);
+    if (plan.slots) out += "@group(1) @binding(8) var<storage, read> slots: array<u32>;\n";
+    return out;
+  }
+
+  endsText(plan) {
+    let out = "";
+    if (plan.ends === "blended" || plan.ends === "before") {
+      const texture = plan.ends === "before" ? "ends" : `target${plan.targets.length - 1}`;
+      if (plan.ends === "before") out += "@group(1) @binding(5) var ends: texture_2d<f32>;\n";
       out += "fn ends_of(at: vec2<i32>) -> vec2<f32> {\n";
-      out += `    return textureLoad(target${last}, at, 0).xy * vec2<f32>(-1.0, 1.0);\n}\n`;
+      out += `    return textureLoad(${texture}, at, 0).xy * vec2<f32>(-1.0, 1.0);\n}\n`;
     } else if (plan.ends === "depth") {
       out +=
         "@group(1) @binding(6) var nearest: texture_depth_2d;\n" +
@@ -200,14 +225,14 @@ export class WebGpuRenderer {
         "fn ends_of(at: vec2<i32>) -> vec2<f32> {\n" +
         "    return vec2<f32>(textureLoad(nearest, at, 0), textureLoad(farthest, at, 0)) / frame.depth_scale;\n}\n";
     }
-    if (plan.slots) out += "@group(1) @binding(8) var<storage, read> slots: array<u32>;\n";
     return out;
   }
 
-  async functions(m) {
-    const source = await texts(m.functions);
-    // What thin pixels take for noise follows from how sums are stored: here 2^-10 of b0 instead of 2^-23.
-    return this.blends32 ? source : source.replace(/(const \w*NMT_ROUNDING: f32 = )[^;]+;/, "$19.765625e-4;");
+  /** Files of a method, and what one of its passes needs besides. */
+  async functions(m, more = []) {
+    let source = await texts([...m.functions, ...more]);
+    for (const [word, value] of Object.entries(m.fill ?? {})) source = source.replaceAll(word, value);
+    return this.blends32 || !m.rounds ? source : rounded(source, /(const \w*NMT_ROUNDING: f32 = )[^;]+;/);
   }
 
   /** Compiles WGSL; what the compiler says goes into the errors. */
@@ -314,24 +339,24 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
 
   async prepareBlended(m, geometry, kind, primitive, depthStencil) {
     const plan = this.plan(m);
-    const functions = await this.functions(m);
     const state = this.stateText(m);
     const layout = this.stateLayout(m);
-    const recorder = plan.slots
-      ? "@group(1) @binding(8) var<storage, read_write> slots: array<atomic<u32>>;\n" +
-        "@group(1) @binding(9) var opaque_depth: texture_depth_2d;\n"
-      : "";
+    const frame = await text("web/wgsl/frame.wgsl");
+    const [pass2, resolve] = [await text("web/wgsl/pass2.wgsl"), await text("web/wgsl/resolve.wgsl")];
+    const pass1 = await text(plan.slots ? "web/wgsl/pass1-slots.wgsl" : "web/wgsl/pass1.wgsl");
+    const prepass = m.prepass ? this.endsText(plan) : "";
+    const before = m.prepass ? [this.endsLayout(plan)] : plan.slots ? [this.layouts.slots] : [];
     const first = await this.module(
       `${m.name} pass 1`,
-      `${geometry}\n${recorder}${functions}\n${m.accumulate}\n${m.pass1 ?? (await text("web/wgsl/pass1.wgsl"))}`,
+      `${geometry}\n${prepass}${await this.functions(m, m.first)}\n${m.accumulate}\n${pass1}`,
     );
     const second = await this.module(
       `${m.name} pass 2`,
-      `${geometry}\n${state}${functions}\n${m.accumulate}\n${m.weight}\n${await text("web/wgsl/pass2.wgsl")}`,
+      `${geometry}\n${state}${await this.functions(m, m.second)}\n${m.accumulate}\n${m.weight}\n${pass2}`,
     );
     const third = await this.module(
       `${m.name} resolve`,
-      `${await text("web/wgsl/frame.wgsl")}\n${state}${functions}\n${m.total}\n${await text("web/wgsl/resolve.wgsl")}`,
+      `${frame}\n${state}${await this.functions(m)}\n${m.total}\n${resolve}`,
     );
     const targets = plan.targets.map((t) => {
       const both = { srcFactor: "one", dstFactor: "one", operation: t.operation };
@@ -340,7 +365,7 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
     const out = {
       pass1: await this.render2(
         `${m.name} pass 1`,
-        [this.frameLayout, ...(plan.slots ? [this.layouts.slots] : [])],
+        [this.frameLayout, ...before],
         this.vertexState(first, kind),
         { module: first, entryPoint: "pass1", targets },
         { primitive, depthStencil },
@@ -359,7 +384,20 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
         { module: third, entryPoint: "resolve", targets: [{ format: "rgba32float" }] },
       ),
     };
-    if (plan.ends === "depth") {
+    if (plan.ends === "before") {
+      const module = await this.module("ends", `${geometry}\n${await text("web/wgsl/ends.wgsl")}`);
+      const both = { srcFactor: "one", dstFactor: "one", operation: "max" };
+      const ends = [{ format: "rg32float", blend: { color: both, alpha: both } }];
+      out.ends = [
+        await this.render2(
+          "ends",
+          [this.frameLayout],
+          this.vertexState(module, kind),
+          { module, entryPoint: "ends", targets: ends },
+          { primitive, depthStencil },
+        ),
+      ];
+    } else if (plan.ends === "depth") {
       const module = await this.module("end", `${geometry}\n${await text("web/wgsl/end.wgsl")}`);
       out.ends = await Promise.all(
         ["less", "greater"].map((depthCompare) =>
@@ -671,6 +709,40 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     blit("copy out", common.copyOut, color, this.texture("method", "rgba32float"), this.times(false, true, 0));
   }
 
+  /** Draws ends that have textures of their own; answers their bindings. */
+  drawEnds(encoder, plan, pipelines, begin) {
+    if (plan.ends === "before") {
+      const view = this.texture("ends", "rg32float");
+      const pass = encoder.beginRenderPass({
+        label: "ends",
+        colorAttachments: [{ view, loadOp: "clear", storeOp: "store", clearValue: [-3e38, -3e38, 0, 0] }],
+        depthStencilAttachment: this.readOnlyDepth,
+        ...begin(),
+      });
+      pass.setPipeline(pipelines.ends[0]);
+      pass.setBindGroup(0, this.frameGroup);
+      this.drawTransparent(pass);
+      pass.end();
+      return [[5, view]];
+    }
+    if (plan.ends !== "depth") return [];
+    return ["nearest", "farthest"].map((name, i) => {
+      const view = this.texture(name, "depth32float");
+      const pass = encoder.beginRenderPass({
+        label: name,
+        colorAttachments: [],
+        depthStencilAttachment: { view, depthLoadOp: "clear", depthStoreOp: "store", depthClearValue: 1 - i },
+        ...begin(),
+      });
+      pass.setPipeline(pipelines.ends[i]);
+      pass.setBindGroup(0, this.frameGroup);
+      pass.setBindGroup(1, this.group(this.layouts.end, [[9, this.texture("depth", "depth32float")]]));
+      this.drawTransparent(pass);
+      pass.end();
+      return [6 + i, view];
+    });
+  }
+
   drawBlended(encoder, m, pipelines) {
     const plan = this.plan(m);
     let slots = null;
@@ -683,6 +755,13 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
       slots = this.groups.get(key);
       encoder.clearBuffer(slots);
     }
+    let begun = false;
+    const begin = () => {
+      const times = this.times(!begun, false, 0);
+      begun = true;
+      return times;
+    };
+    const ends = this.drawEnds(encoder, plan, pipelines, begin);
     const views = plan.targets.map((t, i) => this.texture(`target ${i}`, t.format));
     const first = encoder.beginRenderPass({
       label: "pass 1",
@@ -693,37 +772,24 @@ fn copy(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         clearValue: plan.targets[i].clear,
       })),
       depthStencilAttachment: this.readOnlyDepth,
-      ...this.times(true, false, 0),
+      ...begin(),
     });
     first.setPipeline(pipelines.pass1);
     first.setBindGroup(0, this.frameGroup);
-    if (slots)
+    if (slots) {
+      const depth = this.texture("depth", "depth32float");
       first.setBindGroup(
         1,
         this.group(this.layouts.slots, [
           [8, slots],
-          [9, this.texture("depth", "depth32float")],
+          [9, depth],
         ]),
       );
+    }
+    if (m.prepass) first.setBindGroup(1, this.group(this.endsLayout(plan), ends));
     this.drawTransparent(first);
     first.end();
-    const state = views.map((view, i) => [i, view]);
-    if (plan.ends === "depth") {
-      ["nearest", "farthest"].forEach((name, i) => {
-        const view = this.texture(name, "depth32float");
-        const pass = encoder.beginRenderPass({
-          label: name,
-          colorAttachments: [],
-          depthStencilAttachment: { view, depthLoadOp: "clear", depthStoreOp: "store", depthClearValue: 1 - i },
-        });
-        pass.setPipeline(pipelines.ends[i]);
-        pass.setBindGroup(0, this.frameGroup);
-        pass.setBindGroup(1, this.group(this.layouts.end, [[9, this.texture("depth", "depth32float")]]));
-        this.drawTransparent(pass);
-        pass.end();
-        state.push([6 + i, view]);
-      });
-    }
+    const state = [...views.map((view, i) => [i, view]), ...ends];
     if (slots) state.push([8, slots]);
     const stateGroup = this.group(this.stateLayout(m), state);
     const weighted = this.texture("weighted", this.color);

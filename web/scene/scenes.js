@@ -43,7 +43,7 @@ function glassware() {
   };
   const liquid = (origin, outline, color) => {
     out.group();
-    out.lathe(origin, outline, { color, alpha: 0.42, rim: 0.25 }, 64, 24);
+    out.lathe(origin, outline, { color, alpha: 0.55, rim: 0.25 }, 64, 24);
   };
   const VASE = [
     [0, 0],
@@ -92,8 +92,8 @@ function glassware() {
     [0.31, 0.4],
     [0.34, 0.8],
   ];
-  vessel([-1.25, 0, 0.35], VASE, [0.15, 0.45, 0.85], 0.22);
-  vessel([0.0, 0, -0.55], BOTTLE, [0.1, 0.62, 0.42], 0.26);
+  vessel([-1.25, 0, 0.35], VASE, [0.15, 0.45, 0.85], 0.32);
+  vessel([0.0, 0, -0.55], BOTTLE, [0.1, 0.62, 0.42], 0.36);
   liquid(
     [0.0, 0.06, -0.55],
     [
@@ -106,9 +106,9 @@ function glassware() {
     ],
     [0.72, 0.12, 0.25],
   );
-  vessel([1.3, 0, 0.1], BOWL, [0.95, 0.55, 0.12], 0.24);
-  vessel([1.24, 0.12, 0.12], TUMBLER, [0.85, 0.25, 0.45], 0.25, 0.03);
-  vessel([0.28, 0, 0.75], GOBLET, [0.75, 0.78, 0.9], 0.16);
+  vessel([1.3, 0, 0.1], BOWL, [0.95, 0.55, 0.12], 0.34);
+  vessel([1.24, 0.12, 0.12], TUMBLER, [0.85, 0.25, 0.45], 0.35, 0.03);
+  vessel([0.28, 0, 0.75], GOBLET, [0.75, 0.78, 0.9], 0.26);
   liquid(
     [0.28, 0.66, 0.75],
     [
@@ -120,7 +120,7 @@ function glassware() {
     ],
     [0.85, 0.15, 0.2],
   );
-  vessel([-0.5, 0, 0.9], TUMBLER, [0.25, 0.75, 0.8], 0.22, 0.03);
+  vessel([-0.5, 0, 0.9], TUMBLER, [0.25, 0.75, 0.8], 0.32, 0.03);
   liquid(
     [-0.5, 0.05, 0.9],
     [
@@ -132,17 +132,17 @@ function glassware() {
     ],
     [0.95, 0.62, 0.1],
   );
-  vessel([-0.55, 0, -1.05], VASE, [0.8, 0.3, 0.75], 0.24);
-  vessel([1.05, 0, -1.15], BOTTLE, [0.55, 0.4, 0.9], 0.24);
-  vessel([-1.75, 0, -0.75], TUMBLER, [0.95, 0.45, 0.3], 0.28, 0.03);
-  vessel([1.95, 0, -0.75], GOBLET, [0.4, 0.8, 0.55], 0.2);
+  vessel([-0.55, 0, -1.05], VASE, [0.8, 0.3, 0.75], 0.34);
+  vessel([1.05, 0, -1.15], BOTTLE, [0.55, 0.4, 0.9], 0.34);
+  vessel([-1.75, 0, -0.75], TUMBLER, [0.95, 0.45, 0.3], 0.38, 0.03);
+  vessel([1.95, 0, -0.75], GOBLET, [0.4, 0.8, 0.55], 0.3);
   out.group();
   out.sphere([-1.25, 0.42, 0.35], 0.28, { color: [0.98, 0.8, 0.3], alpha: 0.35, rim: 0.4 });
   return {
     transparent: out.finish(),
     gloss: 0.85,
     floor: 5,
-    view: { target: [0, 0.72, 0], yaw: 0.42, pitch: 0.3, distance: 5.6, fov: 36 },
+    view: { target: [0.05, 0.66, 0], yaw: 0.42, pitch: 0.3, distance: 6.4, fov: 36 },
   };
 }
 
@@ -443,10 +443,10 @@ function smoke(detail) {
       3.6 * t + 0.1,
       plume * 0.45 + swirl * 0.55 * Math.cos(5 * t + phase),
     ];
-    const spread = 0.06 + 0.4 * t + 0.06 * Math.sin(34 * t + 3 * phase) * (0.3 + t);
+    const spread = 0.06 + 0.4 * t + 0.09 * Math.sin(34 * t + 3 * phase) * (0.3 + t);
     const off = scale(direction(rng), spread * Math.cbrt(rng()));
-    const radius = (0.035 + 0.1 * t) * between(rng, 0.7, 1.3);
-    const alpha = Math.min(1, ((0.16 * (1 - t) + 0.02) * between(rng, 0.6, 1.3)) / Math.sqrt(detail));
+    const radius = (0.025 + 0.075 * t) * between(rng, 0.6, 1.3);
+    const alpha = Math.min(1, ((0.26 * (1 - t) + 0.05) * between(rng, 0.6, 1.3)) / Math.sqrt(detail));
     const height = Math.min(1, Math.max(0, 0.55 + (0.45 * (off[1] - 0.4 * off[0])) / spread));
     const grey = mix([0.2, 0.21, 0.26], [0.92, 0.92, 0.95], height);
     const tint = [

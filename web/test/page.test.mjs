@@ -262,12 +262,42 @@ for (const api of ["", "no=webgpu&"]) {
   });
 }
 
+test("a core of six answers pixels of up to eight fragments, and says where it cannot", async () => {
+  const page = await visit("scene=spheres&size=64x56&plain&transparentonly");
+  // Depths from 1 to 30, opacities from 0.05 to 0.9, colours that tell fragments apart.
+  const pixel = (n, k) =>
+    Array.from({ length: n }, (_, i) => {
+      const at = (x) => (Math.sin(12.9898 * (k * 31 + i * 7 + x)) * 43758.5453) % 1;
+      const share = (x) => Math.abs(at(x));
+      return [1 + 29 * share(1), 0.05 + 0.85 * share(2), share(3), share(4), share(5)];
+    });
+  const draws = async (most) => {
+    await listFile(
+      page,
+      `${most}.npz`,
+      Array.from({ length: 60 }, (_, k) => pixel(1 + ((k * 7) % most), k)),
+    );
+    const exact = await draw(page, { method: "exact" });
+    const core = await draw(page, { method: "core-6" });
+    return compare(core.image, exact.image, TOLERANCE);
+  };
+  const few = await draws(8);
+  assert.ok(few.share === 1, `up to eight: ${few.share}, worst ${few.worst}`);
+  // Control: of forty fragments the tail is a guess.
+  assert.ok((await draws(40)).share < 0.95, "the control passed");
+  const webgl = await visit("scene=spheres&size=64x56&no=webgpu");
+  assert.match(await webgl.evaluate(() => nmt.renderer.support("core-6").reason), /atomics/);
+  const half = await visit("scene=spheres&size=64x56&no=float32-blendable");
+  assert.match(await half.evaluate(() => nmt.renderer.support("core-6").reason), /blend/);
+  await Promise.all([page, webgl, half].map((p) => p.close()));
+});
+
 test("opaque surfaces hide what lies behind them, for every method alike", async () => {
   const page = await visit("scene=hair&size=64x56&detail=0.1");
   const alone = await draw(page, { method: "exact", transparentOnly: true, backdrop: [GREY, GREY, GREY] });
   const hidden = await draw(page, { method: "exact", backdrop: [GREY, GREY, GREY] });
   assert.ok(hidden.fragments < 0.9 * alone.fragments, `${hidden.fragments} of ${alone.fragments}`);
-  for (const method of ["recommended", "moment-power-4", "wavelet"]) {
+  for (const method of ["recommended", "moment-power-4", "wavelet", "core-6"]) {
     const found = await draw(page, { method, backdrop: [GREY, GREY, GREY] });
     assert.ok(found.mse < 2e-4, `${method}: ${found.mse}`);
   }

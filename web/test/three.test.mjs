@@ -24,7 +24,7 @@ before(async () => {
     "index.d.ts",
     "networks.js",
     "README.md",
-    "shaders/recommended.wgsl",
+    "shaders/recommended/recommended.wgsl",
     "example/index.html",
   ]) {
     assert.ok(names.includes(name), `${name} is missing from the package: ${names}`);

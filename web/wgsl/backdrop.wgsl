@@ -12,7 +12,7 @@ fn everywhere(@builtin(vertex_index) i: u32) -> Backdrop {
 }
 
 fn studio(height: f32) -> vec3<f32> {
-    return mix(vec3<f32>(0.80, 0.80, 0.82), vec3<f32>(0.93, 0.94, 0.96), smoothstep(-0.2, 1.0, height));
+    return mix(vec3<f32>(0.70, 0.71, 0.74), vec3<f32>(0.90, 0.91, 0.94), smoothstep(-0.2, 1.0, height));
 }
 
 @fragment
@@ -39,7 +39,7 @@ fn floor_color(f: Floor) -> @location(0) vec4<f32> {
     let at = f.at;
     let height = 1.0 - 2.0 * f.position.y / frame.size.y;
     let lines = max(line(at.x * 2.0, 0.012), line(at.y * 2.0, 0.012));
-    var color = vec3<f32>(0.86, 0.865, 0.88) * (1.0 - 0.32 * lines);
+    var color = vec3<f32>(0.78, 0.785, 0.80) * (1.0 - 0.25 * lines);
     let light = textureSampleLevel(shadow, shadow_sampler, 0.5 + 0.5 * at / frame.floor, 0.0).rgb;
     let inside = max(abs(at.x), abs(at.y)) < frame.floor;
     color *= select(vec3<f32>(1.0), light, inside);

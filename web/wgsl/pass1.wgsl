@@ -5,5 +5,5 @@ fn pass1(f: Varying) -> Sums {
     if (found.alpha < 0.0) {
         discard;
     }
-    return accumulate(found);
+    return accumulate(found, vec2<i32>(f.position.xy));
 }

@@ -1,7 +1,7 @@
 // Optical depth in front of a depth as 16 Haar coefficients: index 0 the mean, then 2^j wavelets of level j, j = 0 to
 // 3. A fragment is a step; nothing lies in the last sixteenth of [0, 1), so that the last value is the pixel's total.
-fn wavelet_place(z: f32) -> f32 {
-    return clamp(0.5 + 0.5 * z, 0.0, 1.0) * 0.9375;
+fn wavelet_place(v: f32, ends: vec2<f32>) -> f32 {
+    return clamp((v - ends.x) / max(ends.y - ends.x, 1e-30), 0.0, 1.0) * 0.9375;
 }
 
 // What a fragment adds to the coefficient of level j that its depth x lies in: the integral of the wavelet behind x.
@@ -11,8 +11,7 @@ fn wavelet_term(x: f32, j: u32, absorbance: f32) -> f32 {
 }
 
 // The coefficients of a fragment, four levels of one coefficient each, and the mean.
-fn wavelet_terms(z: f32, absorbance: f32) -> array<vec4<f32>, 4> {
-    let x = wavelet_place(z);
+fn wavelet_terms(x: f32, absorbance: f32) -> array<vec4<f32>, 4> {
     var c: array<vec4<f32>, 4>;
     c[0].x = absorbance * (1.0 - x);
     c[0].y = wavelet_term(x, 0u, absorbance);
@@ -41,9 +40,9 @@ fn wavelet_value(c: array<vec4<f32>, 4>, i: u32) -> f32 {
     return value;
 }
 
-// Transmittance in front of depth z, from the coefficients of all other fragments.
-fn wavelet_transmittance(c: array<vec4<f32>, 4>, z: f32) -> f32 {
-    let x = wavelet_place(z) * 16.0;
+// Transmittance in front of a place, from the coefficients of all other fragments.
+fn wavelet_transmittance(c: array<vec4<f32>, 4>, place: f32) -> f32 {
+    let x = place * 16.0;
     let i = u32(x);
     let before = select(0.0, wavelet_value(c, max(i, 1u) - 1u), i > 0u);
     return clamp(exp(-mix(before, wavelet_value(c, i), fract(x))), 0.0, 1.0);

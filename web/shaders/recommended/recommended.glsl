@@ -18,6 +18,14 @@
 // Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 1800, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
 // Measured on fresh pixels of the training distribution: mean squared error of T 2.438e-3, worst 0.994.
 
+#ifndef NMT_INCLUDED_RECOMMENDED
+#define NMT_INCLUDED_RECOMMENDED
+
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+#endif
+
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 float nmt_absorbance(float alpha) {
     float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
@@ -444,3 +452,56 @@ float nmt_visible_transmittance(float v, float z, float absorbance, float neares
     }
     return answer;
 }
+
+// What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
+struct NmtSums {
+    // (b0, b1, b2, b3): blended by addition, cleared to 0.
+    vec4 sums0;
+    // (b4, number of fragments, 0, 0): blended by addition, cleared to 0.
+    vec4 sums1;
+    // (-v, v, 0, 0): blended by max, cleared to -3e38, so that it holds -nearest and farthest. Two channels, f32
+    // always.
+    vec4 range;
+};
+
+// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and
+// the greatest v of the scene.
+NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
+    float absorbance = nmt_absorbance(alpha);
+    float b[4] = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
+}
+
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
+// (alpha * T * color, alpha * T).
+float nmt_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_fragment_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
+    );
+}
+
+// As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
+float nmt_visible_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_visible_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
+    );
+}
+
+// Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
+// shows through: result.rgb + result.a * background. As a blend state: source factor one, destination factor source
+// alpha.
+vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
+    float behind = exp(-sums0.x);
+    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
+    return vec4(scale * weighted.xyz, behind);
+}
+
+#endif
