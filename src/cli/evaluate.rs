@@ -60,6 +60,10 @@ pub struct Evaluate {
     /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
     #[arg(long, conflicts_with_all = ["gpu", "tint", "frames"])]
     shadows: bool,
+    /// Points of surfaces that are asked for their light; of the floor under the scene there are about five times as many.
+    #[arg(long, value_name = "N", requires = "shadows", default_value_t = 2000,
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    shadow_points: u32,
     /// Folder for images, contact sheets, comparison.md, comparison.svg and results.json.
     #[arg(long)]
     out: PathBuf,

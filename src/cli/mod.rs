@@ -74,6 +74,7 @@ enum Command {
     #[command(after_help = examples::EVALUATE)]
     Evaluate(evaluate::Evaluate),
     /// List transparency methods: memory, passes, needs and sources.
+    #[command(after_help = examples::METHODS)]
     Methods(methods::Methods),
     /// Render a scene, or convert a deep image, to a fragment list.
     #[command(after_help = examples::SCENE)]

@@ -114,7 +114,16 @@ fn set(words: &mut Vec<String>, option: &str, value: &str) {
 /// The same command on small sizes and few repetitions.
 fn smaller(mut words: Vec<String>) -> Vec<String> {
     let has = |words: &[String], option: &str| words.iter().any(|w| w == option);
-    let scenes = ["glass-stacks", "smoke", "hair", "foliage", "spheres", "teapots"];
+    let scenes = [
+        "glass-stacks",
+        "smoke",
+        "hair",
+        "foliage",
+        "spheres",
+        "teapots",
+        "curtains",
+        "built-in",
+    ];
     let renders = words
         .iter()
         .any(|w| scenes.contains(&w.as_str()) || w.starts_with("configs/scenes/"));
@@ -129,6 +138,7 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
         set(&mut words, "--size", size);
     }
     match words[0].as_str() {
+        "evaluate" if has(&words, "--shadows") => set(&mut words, "--shadow-points", "20"),
         "run" | "train" => set(&mut words, "--epochs", "1"),
         "profile" => set(&mut words, "--repeat", "1"),
         "stress" => {
@@ -283,6 +293,7 @@ fn examples_of_help_run() {
         "stress",
         "profile",
         "import",
+        "methods",
         "completions",
         "man",
         "schema",

@@ -24,12 +24,8 @@ pub const STORY: [&str; 9] = [
     "wavelet:3+own",
 ];
 
-/// Points on surfaces, texels and points of the floor a side.
-const ASKED: ShadowOptions = ShadowOptions {
-    map_size: 512,
-    on_surfaces: 2000,
-    floor_size: 96,
-};
+/// Texels of the shadow map a side.
+const MAP_SIZE: u32 = 512;
 
 impl Session<'_> {
     /// Shadows of every scene, by every method, unfiltered and under the filter.
@@ -38,7 +34,12 @@ impl Session<'_> {
         let mut refused = false;
         for (scene, name) in scenes {
             let opened = scene::open(scene)?;
-            let shadowed = opened.shadowed(&self.options.options.for_scene(), &ASKED)?;
+            let asked = ShadowOptions {
+                map_size: MAP_SIZE,
+                on_surfaces: self.options.shadow_points as usize,
+                floor_size: (4.6 * f64::from(self.options.shadow_points)).sqrt().ceil() as u32,
+            };
+            let shadowed = opened.shadowed(&self.options.options.for_scene(), &asked)?;
             let (judged, remarks) = self.shadows_of(name, &shadowed);
             refused |= !remarks.is_empty();
             self.write_shadows(name, &shadowed, &judged)?;
@@ -145,7 +146,7 @@ fn text(name: &str, shadowed: &Shadowed, judged: &[ShadowJudged]) -> String {
     }
     format!(
         "{name}: light of {} texels a side, {} fragments; {} points on surfaces, {} on the floor, against rays\n{}",
-        ASKED.map_size,
+        MAP_SIZE,
         shadowed.map.len(),
         shadowed.on_surfaces.len(),
         shadowed.floor.iter().flatten().count(),
