@@ -31,6 +31,7 @@ pub mod evaluate;
 pub mod export;
 pub mod features;
 pub mod gpu;
+pub mod infer;
 pub mod model;
 pub mod moments;
 pub mod numeric;

@@ -314,10 +314,7 @@ mod tests {
                     n,
                     next(2.0, 6.0),
                 ];
-                if !matches!(
-                    set,
-                    FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
-                ) {
+                if !set.spec().exact.ends {
                     scalars = std::array::from_fn(|_| next(0.0, 1.0));
                 }
                 let b: Vec<f32> = (0..k).map(|_| next(-1.0, 1.0)).collect();

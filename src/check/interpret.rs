@@ -491,6 +491,14 @@ fn zero<const L: usize>(module: &Module, ty: Handle<naga::Type>) -> Result<Value
             kind: naga::ScalarKind::Float,
             ..
         }) => Ok(Value::Uniform(0.0)),
+        TypeInner::Scalar(naga::Scalar {
+            kind: naga::ScalarKind::Uint,
+            ..
+        }) => Ok(Value::Index(0)),
+        TypeInner::Scalar(naga::Scalar {
+            kind: naga::ScalarKind::Bool,
+            ..
+        }) => Ok(Value::Bools(Arc::new([false; L]))),
         TypeInner::Vector { size, .. } => Ok(copies(size as usize, Value::Uniform(0.0))),
         TypeInner::Matrix { columns, rows, .. } => {
             Ok(copies(columns as usize, copies(rows as usize, Value::Uniform(0.0))))

@@ -3,6 +3,7 @@
 //! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
+pub mod graph;
 pub mod half;
 pub mod hlsl;
 pub mod interpret;
@@ -27,10 +28,7 @@ use std::path::Path;
 /// Greatest absolute error in distribution: raw features of the `paper` set reach logits of 20, where f32 sums lose this much; features of the recentred sets are of
 /// the order of 1.
 pub fn bar_in_distribution(set: FeatureSet) -> f64 {
-    match set {
-        FeatureSet::Paper | FeatureSet::DeepWeightedBlended => 3e-5,
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => 5e-6,
-    }
+    set.spec().tolerances.single
 }
 
 /// An export may be this many times as far from f64 as our own f32 forward pass is on the same rows: in the mean in distribution, at worst beyond.
@@ -835,6 +833,12 @@ fn check_onnx(subject: &Subject<'_>, bytes: &[u8], findings: &mut Vec<Finding>) 
     findings.push(
         subject
             .reference
+            .compare(FORMAT, "interpreter", |rows| graph::run(bytes, rows, width)),
+    );
+    #[cfg(feature = "rten")]
+    findings.push(
+        subject
+            .reference
             .compare(FORMAT, "rten", |rows| onnx::rten(bytes, rows, width)),
     );
     findings.push(match onnx::library() {
@@ -950,7 +954,7 @@ mod tests {
             &|_| {},
         ));
         assert!(
-            ["wgsl interpreter", "onnx rten", "json nmt"]
+            ["wgsl interpreter", "onnx interpreter", "json nmt"]
                 .iter()
                 .all(|start| failed.iter().any(|f| f.starts_with(start))),
             "{failed:#?}"

@@ -1,4 +1,4 @@
-//! ONNX exports: weights read back bit for bit, the graph run by onnxruntime and by rten.
+//! ONNX exports: weights read back bit for bit, the graph run by onnxruntime and, where the program has it, by rten.
 
 use crate::export::onnx::{INPUT, OUTPUT, answer_tensors, biases_name, decode, weights_name};
 use crate::features::Answer;
@@ -159,13 +159,14 @@ pub fn onnxruntime(library: &Path, bytes: &[u8], rows: &[f32], width: usize) -> 
     Session::new(library, bytes, None)?.run(rows, width, <[f32]>::to_vec)
 }
 
-/// Runs the graph by rten, which is always at hand.
+/// Runs the graph by rten, where the program was built with that feature.
 ///
 /// # Shapes
 /// As [`onnxruntime`].
 ///
 /// # Errors
 /// rten's own words.
+#[cfg(feature = "rten")]
 pub fn rten(bytes: &[u8], rows: &[f32], width: usize) -> Result<Vec<f32>, String> {
     let model = rten::Model::load(bytes.to_vec()).map_err(|e| e.to_string())?;
     let n = rows.len() / width;
@@ -216,6 +217,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "rten")]
     fn rten_computes_the_reference() {
         let mlp = random_mlp(&[32, 16], 2);
         let rows: Vec<f32> = (0..700).map(|i| (i % 23) as f32 / 10.0 - 1.0).collect();

@@ -4,7 +4,7 @@ use crate::dataset::build::pixels_holding;
 use crate::features::{Extractor, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::rng::stream;
-use crate::synth::{Purpose, Synth, SynthConfig};
+use crate::synth::{Purpose, Synth};
 use rand::RngExt;
 
 /// Keeps these random numbers apart from those of training.
@@ -58,8 +58,7 @@ pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
 pub fn sampled(mlp: &Mlp, count: usize, seed: u64) -> Result<Vec<f32>, String> {
     let synth = match mlp.provenance.config.as_ref().and_then(|c| c.get("synth")) {
         Some(synth) => serde_json::from_value(synth.clone()).map_err(|e| format!("provenance.config.synth: {e}"))?,
-        None if mlp.feature_set().moment_depth() == MomentDepthKind::Log => SynthConfig::wide(),
-        None => SynthConfig::paper(),
+        None => (mlp.feature_set().spec().default_pixels)(),
     };
     let camera = synth.camera;
     // Moment depth of random pixels is that of their camera, as it was in training.

@@ -2,9 +2,8 @@
 
 use super::interpret::Interpreter;
 use crate::export::Format;
-use crate::export::recentred::ROUNDING;
+use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH, ROUNDING};
 use crate::export::shader::{Form, Kind, Language, Precision};
-use crate::export::visible::{FAINT_SWITCH, HIDDEN_SWITCH};
 use crate::model::Mlp;
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -701,12 +700,13 @@ mod tests {
     /// `nmt_visible_transmittance` is made of these to the bit, and each switch turns off its own rule alone. Control: with a quarter of the share behind, weights are too small.
     #[test]
     fn shaders_hide_what_their_twin_hides() {
-        use crate::export::visible::{FAINT_SWITCH, HIDDEN_SWITCH};
+        use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH};
+        use crate::features::recentred;
         use crate::features::visible::{FAINT, HIDDEN, Noise, first_hidden_depth, hidden_weight, most_behind};
-        use crate::features::{passes, recentred};
+        use crate::numeric::real::Divisor;
         fn compare<const K: usize>(set: FeatureSet, pixels: usize) {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
-            let list = passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
+            let list = crate::infer::passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
             let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
             for format in [Format::Wgsl, Format::Glsl] {
                 let text = source(&mlp, format);
@@ -724,7 +724,7 @@ mod tests {
                         &text[end..]
                     )
                 };
-                let halved = text.replace("1.00001 * min(share1", "0.25 * min(share1");
+                let halved = text.replace("min(share1, share2) * 1.00001", "min(share1, share2) * 0.25");
                 assert_ne!(halved, text);
                 let modules = [
                     text.clone(),
@@ -759,7 +759,7 @@ mod tests {
                     if n < 5 || sums.nearest == sums.farthest {
                         continue;
                     }
-                    let ends = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f32>(v, range));
+                    let ends = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth(v, range));
                     let from = one(
                         0,
                         "nmt_first_hidden_depth",
@@ -773,11 +773,12 @@ mod tests {
                     let exact: Vec<[f64; 2]> = terms
                         .iter()
                         .map(|s| {
-                            let z: f64 = recentred::moment_depth(s.view_z, range);
+                            let z: f64 = recentred::moment_depth(s.view_z.into(), range.map(f64::from));
                             [z, s.absorbance.into()]
                         })
                         .collect();
-                    let [z0, z1] = [sums.nearest, sums.farthest].map(|v| recentred::moment_depth::<f64>(v, range));
+                    let [z0, z1] = [sums.nearest, sums.farthest]
+                        .map(|v| recentred::moment_depth(f64::from(v), range.map(f64::from)));
                     let (c, h) = (0.5 * (z0 + z1), (0.5 * (z1 - z0)).max(1e-8));
                     // Long pixels are looked at here and there, to keep the test short.
                     for (i, s) in terms.iter().enumerate().step_by(1 + n / 12) {
@@ -841,17 +842,20 @@ mod tests {
                                     .sum::<f64>()
                                     / others
                             });
-                            let noise = Noise::<f32>::of(n as u32, sums.b0, others32, c as f32, h as f32);
+                            let growth = 1.0 + 2.0 * c.abs() / h;
+                            let unit = f64::from(f32::EPSILON);
+                            let noise =
+                                Noise::of(n as f64, sums.b0.into(), others32.into(), Divisor::new(h), growth, unit);
                             let noise = Noise {
-                                moments: 2.0 * f64::from(noise.moments),
-                                noise_growth: noise.noise_growth.into(),
-                                position: 2.0 * f64::from(noise.position),
-                                depth: 2.0 * f64::from(noise.depth),
+                                moments: 2.0 * noise.moments,
+                                growth,
+                                position: 2.0 * noise.position,
+                                depth: 2.0 * noise.depth,
                             };
                             let twin = hidden_weight(
                                 others,
                                 exact[i][1],
-                                n as u32,
+                                n as f64,
                                 most_behind(place(exact[i][0]), m, &noise),
                                 &noise,
                             );

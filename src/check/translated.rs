@@ -219,11 +219,8 @@ mod tests {
             let text = String::from_utf8(encode(&mlp, Format::Wgsl).unwrap()).unwrap();
             let module = parse(Format::Wgsl, &text).unwrap();
             let interpreter = Interpreter::new(&module);
-            let known = matches!(
-                set,
-                FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
-            );
-            let scalars = if known { 9 } else { 5 };
+            let known = set.spec().exact.ends;
+            let scalars = set.spec().shader.arguments.len();
             let (n, k) = (500, set.moments());
             // Fragments between near and far, in pixels of three: what is known is smooth in every argument.
             let fragment = |_| {
@@ -242,7 +239,7 @@ mod tests {
                         rng.random_range(2.0..4.0),
                     ]
                 } else {
-                    (0..5).map(|_| rng.random_range(0.1f32..0.9)).collect()
+                    (0..scalars).map(|_| rng.random_range(0.1f32..0.9)).collect()
                 };
                 head.into_iter()
                     .chain((0..k).map(|_| rng.random_range(-0.5f32..0.5)))

@@ -45,8 +45,18 @@ examples! {
     BENCH:
         "nmt bench train --backend fused"
         "nmt bench infer --model recommended --batch 8192 --out target/bench/infer"
-        "nmt bench generate --config configs/paper.toml configs/recommended.toml"
         "nmt bench methods --fragments teapots --model small --device cpu --out target/bench/methods";
+    BENCH_TRAIN:
+        "nmt bench train --backend fused --network 7-32-16-1 7-16-8-1"
+        "nmt bench train --stream configs/recommended.toml";
+    BENCH_GENERATE:
+        "nmt bench generate --config configs/paper.toml configs/recommended.toml";
+    BENCH_INFER:
+        "nmt bench infer --model recommended small --batch 8192";
+    BENCH_METHODS:
+        "nmt bench methods --fragments teapots --model small --device cpu --out target/bench/methods";
+    BENCH_TILES:
+        "nmt bench tiles --fragments teapots hair --model small";
     STRESS:
         "nmt stress --model recommended --cases single pair thin"
         "nmt stress --model recommended --random 1000000 --out target/stress";

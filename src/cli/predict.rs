@@ -3,13 +3,13 @@
 use super::ui::Ui;
 use super::{Verdict, keep_inputs};
 use crate::evaluate::transmittance_error;
-use crate::features::passes::{Class, Tally};
 use crate::features::{MomentFrame, OutputMeaning};
+use crate::infer::{Answered, Class, Skip, Tally};
 use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
 use crate::oit::Context;
-use crate::oit::neural::{Answered, Neural, Skip};
+use crate::oit::neural::Neural;
 use crate::pixel::{CameraPlanes, abuffer};
 use crate::scene;
 use anyhow::bail;

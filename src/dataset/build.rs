@@ -2,7 +2,7 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, RowStream, Rows};
-use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, SumPrecision};
+use crate::features::{Extracted, Extractor, FeatureSet, SumPrecision};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
@@ -145,22 +145,13 @@ impl DatasetConfig {
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
     let Extracted { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
-    let asked = |values: &mut dyn Iterator<Item = f32>| {
-        known
-            .iter()
-            .zip(values)
-            .filter(|(k, _)| k.is_nan())
-            .map(|(_, v)| v)
-            .collect()
-    };
-    let targets = asked(&mut targets.into_iter().map(|t| t as f32));
-    let all_pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
-    let pixels = known
+    let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
+    let unknown = known
         .iter()
-        .zip(all_pixels)
-        .filter(|(k, _)| k.is_nan())
-        .map(|(_, p)| p)
-        .collect();
+        .zip(targets)
+        .zip(pixels)
+        .filter(|((known, _), _)| known.is_none());
+    let (targets, pixels) = unknown.map(|((_, target), pixel)| (target as f32, pixel)).unzip();
     Ok(Rows {
         feature_set: extractor.set(),
         features,
@@ -206,7 +197,7 @@ pub fn build(
     progress: &dyn Fn(u64),
 ) -> Result<Dataset, DatasetError> {
     config.validate()?;
-    if config.features.moment_depth() == MomentDepthKind::Log {
+    if config.features.spec().is_sampled {
         let part = |purpose, pairs: u64, before: u64| -> Result<(Rows, usize), DatasetError> {
             let mut stream = RowStream::new(seed, synth, config, purpose)?;
             let rows = stream.take(pairs as usize, &|n| progress(before + n))?;
@@ -336,7 +327,7 @@ pub fn build_from_lists(
         extractors.push(
             Extractor::for_list(config.features, list, None, None)
                 .map_err(in_list)?
-                .with_storage(config.storage),
+                .with_precision(config.storage),
         );
     }
     let rows_of = |chosen: &[(u32, u32)]| {

@@ -2,7 +2,7 @@
 
 use super::build::{DatasetConfig, DatasetError, Weighting};
 use super::{Row, Rows};
-use crate::features::{Extractor, Sampled, Target};
+use crate::features::{Extractor, Sampled};
 use crate::numeric::rng::stream;
 use crate::synth::{Purpose, Sketch, Synth, SynthConfig};
 use rayon::prelude::*;
@@ -108,7 +108,7 @@ impl RowStream {
     /// [`DatasetError`] names the field that is wrong.
     pub fn new(seed: u64, synth: &SynthConfig, config: &DatasetConfig, purpose: Purpose) -> Result<Self, DatasetError> {
         config.validate()?;
-        if config.features.target() != Target::Transmittance {
+        if config.features.spec().sample.is_none() {
             return Err(DatasetError::NoStream(config.features.name()));
         }
         let source = Synth::new(synth.clone(), seed)?;
@@ -130,7 +130,7 @@ impl RowStream {
             purpose,
             seed,
             config: config.clone(),
-            extractor: extractor.with_storage(config.storage),
+            extractor: extractor.with_precision(config.storage),
             next: 0,
             made,
         })

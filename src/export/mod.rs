@@ -4,12 +4,12 @@
 //! it, where it comes from and how accurate it is. Weights stand in constant arrays that are read by literal indices only; a run-time index makes
 //! shader compilers copy the array at each access. WGSL, GLSL and HLSL are written here; naga makes MSL and SPIR-V of the WGSL.
 
+pub mod core;
 pub mod dialect;
 pub mod onnx;
 pub mod recentred;
 pub mod shader;
 pub mod translate;
-pub mod visible;
 
 use crate::model::{Mlp, file};
 use crate::numeric::file::{FileError, Replace, create_folder, may_write, write_atomically};

@@ -1,10 +1,12 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
 
-use super::{ExportError, recentred, visible};
-use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE, MomentDepthKind};
+use super::ExportError;
+use super::dialect::{Glsl, Hlsl, Wgsl};
+use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
 use crate::numeric::quantise::round_f16;
+use crate::numeric::source::{Dialect, Source};
 use std::fmt::Write;
 
 /// A shading language.
@@ -50,8 +52,7 @@ pub struct Kind {
 /// The function that answers; it takes the array of features.
 pub const ENTRY: &str = "nmt_transmittance";
 
-/// The network itself where it answers with a share of absorbance; takes what [`ENTRY`] takes.
-pub const SHARE: &str = "nmt_share";
+pub use crate::features::SHARE;
 
 /// The function that holds the network.
 pub fn network_function(set: FeatureSet) -> &'static str {
@@ -62,19 +63,13 @@ pub fn network_function(set: FeatureSet) -> &'static str {
 }
 
 impl Language {
-    fn feature_source(self, set: FeatureSet) -> String {
-        let text = match (self, set) {
-            (Self::Wgsl, FeatureSet::Paper) => include_str!("../features/paper.wgsl"),
-            (Self::Glsl, FeatureSet::Paper) => include_str!("../features/paper.glsl"),
-            (Self::Hlsl, FeatureSet::Paper) => include_str!("../features/paper.hlsl"),
-            (Self::Wgsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.wgsl"),
-            (Self::Glsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.glsl"),
-            (Self::Hlsl, FeatureSet::DeepWeightedBlended) => include_str!("../features/deep_weighted_blended.hlsl"),
-            (_, set @ (FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8)) => {
-                return recentred::source(self, set);
-            }
-        };
-        text.to_owned()
+    /// How it spells formulas.
+    pub fn dialect(self) -> &'static dyn Dialect {
+        match self {
+            Self::Wgsl => &Wgsl,
+            Self::Glsl => &Glsl,
+            Self::Hlsl => &Hlsl,
+        }
     }
 
     /// A literal that parses back to the same bits: the shortest decimal that names the f32.
@@ -199,10 +194,8 @@ fn shortest_half(x: f32) -> f32 {
 /// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
 /// bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
 pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
-    match set {
-        FeatureSet::Paper | FeatureSet::DeepWeightedBlended => (1e-1, 2e-3),
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (1e-1, 1e-3),
-    }
+    let tolerances = set.spec().tolerances;
+    (tolerances.half, tolerances.half_mean)
 }
 
 /// Greatest finite f16.
@@ -257,12 +250,7 @@ pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
         }
         true
     };
-    // Recentred features are of the order of 1, with logarithms up to 10; the others count fragments and absorbance.
-    let least = if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
-        4
-    } else {
-        6
-    };
+    let least = mlp.feature_set().spec().tolerances.usual_feature_log2;
     let power = (least..=14).rev().find(|&p| fits(2f64.powi(p)));
     power.map(|p| 2f32.powi(p)).ok_or_else(|| {
         refused(format!(
@@ -287,17 +275,17 @@ pub fn source(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
     if kind.language == Language::Wgsl && kind.precision == Precision::F16 {
         text += "enable f16;\n\n";
     }
-    text += &kind.language.feature_source(mlp.feature_set());
-    text.push('\n');
+    let functions = Source::new(kind.language.dialect(), "nmt");
+    let calls = &mlp.feature_set().spec().shader;
+    (calls.write_features)(&functions);
+    let mut body = "\n".to_owned();
     match kind.form {
-        Form::Plain => network.plain(&mut text),
-        Form::Packed => network.packed(&mut text),
+        Form::Plain => network.plain(&mut body),
+        Form::Packed => network.packed(&mut body),
     }
-    if mlp.feature_set().moment_depth() == MomentDepthKind::Log {
-        text += &recentred::answer(kind.language, mlp.feature_set());
-        text += &visible::source(kind.language, mlp.feature_set());
-    }
-    Ok(text)
+    functions.between(&body);
+    (calls.write_answers)(&functions);
+    Ok(text + functions.into_text().trim_start_matches('\n'))
 }
 
 /// Lines as a comment, and an empty line behind it.

@@ -3,6 +3,7 @@
 use super::ExportError;
 use super::shader::{self, ENTRY, Kind, Precision};
 use crate::features::FeatureSet;
+use crate::features::spec::ShaderCalls;
 use crate::model::Mlp;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, back};
@@ -68,38 +69,13 @@ fn header(mlp: &Mlp, kind: Kind, more: &[&str]) -> Result<Vec<String>, ExportErr
     Ok(lines)
 }
 
-/// What the numbers of a row of [`FRAGMENTS`] are; b are the moments.
-fn fragment_arguments(set: FeatureSet) -> (Vec<&'static str>, String) {
-    let (names, call): (&[&str], _) = match set {
-        FeatureSet::Paper => (
-            &["w", "w_min", "w_max", "n", "b0"],
-            format!("{ENTRY}(nmt_features(HEAD, vec4<f32>(TAIL)))"),
-        ),
-        FeatureSet::DeepWeightedBlended => (
-            &["view_z", "v_min", "v_max", "alpha_sum", "n"],
-            format!("{ENTRY}(nmt_features(HEAD))"),
-        ),
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8 => (
-            &[
-                "v",
-                "z",
-                "absorbance",
-                "nearest",
-                "farthest",
-                "z_nearest",
-                "z_farthest",
-                "n",
-                "b0",
-            ],
-            format!("nmt_fragment_transmittance(HEAD, array<f32, {}>(TAIL))", set.moments()),
-        ),
-    };
-    (names.to_vec(), call)
-}
-
 /// The WGSL with two compute shaders behind it, [`ROWS`] and [`FRAGMENTS`]: what the SPIR-V module is made of.
 pub fn with_entry_points(source: &str, set: FeatureSet) -> String {
-    let (names, call) = fragment_arguments(set);
+    let ShaderCalls {
+        arguments: names,
+        answer: call,
+        ..
+    } = set.spec().shader;
     let (width, arguments) = (set.width(), names.len() + set.moments());
     let loads = |base: usize, n: usize| {
         (base..base + n)
@@ -150,7 +126,7 @@ pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
         ..Default::default()
     };
     let words = back::spv::write_vec(&module, &info, &options, None).map_err(|e| refused(e.to_string()))?;
-    let (mut arguments, _) = fragment_arguments(set);
+    let mut arguments = set.spec().shader.arguments.to_vec();
     let moments: Vec<String> = (1..=set.moments()).map(|i| format!("b{i}")).collect();
     arguments.extend(moments.iter().map(String::as_str));
     let (rows, fragments) = (

@@ -1,6 +1,12 @@
 //! DWB22's features: `[depth, alpha_sum, n]`.
 
+use super::extract::unknown;
+use super::spec::{ExactRules, FeatureSpec, ShaderCalls, Sums, Tolerances};
+use super::{Answer, MomentDepthKind, OutputMeaning, Target};
+use crate::numeric::real::{Real, c};
+use crate::numeric::source::{Source, Type};
 use crate::pixel::{DepthError, Pixel, ViewZ};
+use crate::synth::SynthConfig;
 
 /// Names of the columns.
 pub const COLUMNS: [&str; 3] = ["depth", "alpha_sum", "n"];
@@ -13,11 +19,71 @@ pub const DESCRIPTION: [&str; 4] = [
     "The answer is what front-to-back blending has left when it reaches the fragment; use it as the weight of weighted blended transparency.",
 ];
 
+/// Bits of a pixel through both passes: sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and
+/// what is left of the background in R16F.
+pub const BITS_PER_PIXEL: u32 = 112;
+
+/// DWB22's feature set.
+pub const SPEC: FeatureSpec = FeatureSpec {
+    name: "deep-weighted-blended",
+    columns: &COLUMNS,
+    description: &DESCRIPTION,
+    sums: Sums {
+        moments: 0,
+        bits_per_pixel: BITS_PER_PIXEL,
+        has_precisions: false,
+    },
+    core: None,
+    depth: MomentDepthKind::None,
+    output: OutputMeaning::FrontToBackFactor,
+    answer: Answer::Sigmoid,
+    target: Target::FrontToBackFactor,
+    exact: ExactRules::NONE,
+    tolerances: Tolerances {
+        single: 3e-5,
+        half: 1e-1,
+        half_mean: 2e-3,
+        // Fragments are counted.
+        usual_feature_log2: 6,
+    },
+    default_pixels: SynthConfig::paper,
+    pixel: |e, pixel, out| {
+        unknown(COLUMNS.len(), out, |rows| {
+            extract(pixel, e.scale.linear_range(), rows);
+            Ok(())
+        })
+    },
+    sample: None,
+    is_sampled: false,
+    shader: ShaderCalls {
+        write_features,
+        write_answers: |_| (),
+        arguments: &["view_z", "v_min", "v_max", "alpha_sum", "n"],
+        answer: "nmt_transmittance(nmt_features(HEAD))",
+    },
+};
+
+fn write_features(source: &Source) {
+    let about = "The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, \
+                 number of fragments) and the least and greatest view depth of the scene.";
+    let names = ["view_z", "v_min", "v_max", "alpha_sum", "n"];
+    source.begin_function(
+        "nmt_features",
+        about,
+        &names.map(|name| (name, Type::Real)),
+        Type::Reals(COLUMNS.len()),
+    );
+    let [view_z, v_min, v_max, alpha_sum, n] = names.map(|name| source.real(name));
+    let relative = ((view_z - v_min) / (v_max - v_min).max(c(1e-30))).clamp(c(0.0), c(1.0));
+    let depth = Real::select(v_max.gt(v_min), relative, view_z.like(0.0)).named("depth");
+    source.return_array(&[depth, alpha_sum, n]);
+}
+
 /// Linear depth relative to a range: d = (v − v0)/(v1 − v0), clamped to [0, 1]; 0 where v0 = v1.
 ///
-/// DWB22's shader takes the view depth itself, in scene units, which ties a network to the one scene that it was trained on. Here it is measured
-/// from the least to the greatest view depth of the fragment list (or of `--depth-range`), not between the camera's planes: a scene fills little
-/// of the room between those.
+/// DWB22's shader takes the view depth itself, in scene units, which ties a network to the one scene that it was
+/// trained on. Here it is measured from the least to the greatest view depth of the fragment list (or of
+/// `--depth-range`), not between the camera's planes: a scene fills little of the room between those.
 ///
 /// # Source
 /// DWB22 Sec. 3.3.2 and App. B.2 (`LinearizeDepth`); the normalisation is ours.
@@ -49,8 +115,8 @@ impl LinearRange {
     }
 }
 
-/// Features of every fragment of a pixel: its relative linear depth, the pixel's sum of alpha, and its number of fragments; in f64, rounded to
-/// f32 once.
+/// Features of every fragment of a pixel: its relative linear depth, the pixel's sum of alpha, and its number of
+/// fragments; in f64, rounded to f32 once.
 ///
 /// # Source
 /// DWB22 Sec. 3.3.2.

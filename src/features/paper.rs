@@ -1,8 +1,16 @@
 //! NMT24's features: `[d, n, b0, b1, b2, b3, b4]` on window depth.
 
+use super::extract::{Extractor, Sampled, at, unknown};
+use super::recentred::formulas::absorbance as absorbance_of;
+use super::spec::{ExactRules, FeatureSpec, ShaderCalls, Sums, Tolerances};
+use super::{Answer, MomentDepthKind, OutputMeaning, Target};
 use crate::moments::power::power_moments;
 use crate::numeric::lanes::{LANES, Lanes};
+use crate::numeric::real::{Real, c};
+use crate::numeric::rng::Stream;
+use crate::numeric::source::{Source, Type};
 use crate::pixel::{CameraPlanes, DepthError, Pixel, ViewZ, absorbance};
+use crate::synth::SynthConfig;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 
@@ -18,9 +26,108 @@ pub const DESCRIPTION: [&str; 5] = [
     "The answer is T = exp(-sum of A over the fragments nearer than this one).",
 ];
 
+/// NMT24's feature set.
+pub const SPEC: FeatureSpec = FeatureSpec {
+    name: "paper",
+    columns: &COLUMNS,
+    description: &DESCRIPTION,
+    sums: Sums {
+        moments: 4,
+        // NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
+        bits_per_pixel: 352,
+        has_precisions: false,
+    },
+    core: None,
+    depth: MomentDepthKind::Window,
+    output: OutputMeaning::Transmittance,
+    answer: Answer::Sigmoid,
+    target: Target::Transmittance,
+    exact: ExactRules::NONE,
+    tolerances: Tolerances {
+        // Raw features reach logits of 20, where f32 sums lose this much.
+        single: 3e-5,
+        half: 1e-1,
+        half_mean: 2e-3,
+        // Fragments and absorbance are counted.
+        usual_feature_log2: 6,
+    },
+    default_pixels: SynthConfig::paper,
+    pixel: |e, pixel, out| unknown(COLUMNS.len(), out, |rows| extract(pixel, e.scale.planes(), rows)),
+    sample: Some(sample),
+    is_sampled: false,
+    shader: ShaderCalls {
+        write_features,
+        write_answers: |_| (),
+        arguments: &["w", "w_min", "w_max", "n", "b0"],
+        answer: "nmt_transmittance(nmt_features(HEAD, vec4<f32>(TAIL)))",
+    },
+};
+
+/// e^x − 1 for 0 ≤ x ≤ 1 by its series to degree 10, which leaves 3e-8 at x = 1.
+#[inline(always)]
+fn expm1<R: Real>(x: R) -> R {
+    R::step(
+        "expm1",
+        "e^x - 1 for 0 <= x <= 1, without the cancellation of exp(x) - 1 near 0; relative error below 1e-7.",
+        [("x", x)],
+        |[x]| {
+            let mut p = x.like(1.0 / 3_628_800.0);
+            for factorial in [362_880.0, 40_320.0, 5040.0, 720.0, 120.0, 24.0, 6.0, 2.0, 1.0] {
+                p = c(1.0 / factorial) + x * p;
+            }
+            x * p
+        },
+    )
+}
+
+fn write_features(source: &Source) {
+    expm1(source.real("x"));
+    absorbance_of(source.real("alpha"));
+    let about = "Pass 1: what a fragment at window depth w adds to b1..b4; to b0 it adds its absorbance.";
+    source.begin_function(
+        "nmt_moments",
+        about,
+        &[("w", Type::Real), ("absorbance", Type::Real)],
+        Type::Vec4,
+    );
+    let [w, a] = ["w", "absorbance"].map(|name| source.real(name));
+    let z = (c(2.0) * w - c(1.0)).named("z");
+    let mut term = a;
+    let b = std::array::from_fn::<_, 4, _>(|k| {
+        term = (term * z).named_at("b", k + 1);
+        term
+    });
+    source.return_array(&b);
+    let about = "Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and \
+                 greatest window depth, number of fragments, total absorbance b0 and moments b1..b4.";
+    let names = SPEC.shader.arguments;
+    let parameters: Vec<_> = names
+        .iter()
+        .map(|&name| (name, Type::Real))
+        .chain([("b1234", Type::Vec4)])
+        .collect();
+    source.begin_function("nmt_features", about, &parameters, Type::Reals(COLUMNS.len()));
+    let [w, least, greatest, n, b0] = ["w", "w_min", "w_max", "n", "b0"].map(|name| source.real(name));
+    let range = expm1(greatest - least).max(c(1e-30));
+    let d = Real::select(greatest.gt(least), expm1(w - least) / range, w.like(0.0)).named("d");
+    source.return_array(&[[d, n, b0].as_slice(), &source.vec4("b1234")].concat());
+}
+
+/// Rows of some fragments of a pixel, every one of which needs the network; see [`Extractor::sample`].
+fn sample(e: &Extractor, pixel: Pixel<'_>, most: usize, rng: &mut Stream, rows: &mut Sampled) {
+    let n = pixel.len();
+    rows.transform_depths(pixel, &e.scale.planes());
+    let b = describe_lanes(n, &mut rows.depth, &rows.absorbance);
+    rows.choose(n, most, rng, |i, Sampled { depth, features, .. }| {
+        features.extend_from_slice(&[at(depth, i), n as f32, b[0], b[1], b[2], b[3], b[4]]);
+        true
+    });
+}
+
 /// Relative depth of a fragment in its pixel: d = (e^w − e^wmin)/(e^wmax − e^wmin); 0 where wmin = wmax.
 ///
-/// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels suffer.
+/// Written with e^x − 1 of the *differences*, which is the same number without the cancellation that thin pixels
+/// suffer.
 ///
 /// # Source
 /// NMT24 Sec. 3.1, first feature, on window depth.
@@ -35,8 +142,8 @@ pub fn relative_depth(w: f64, wmin: f64, wmax: f64) -> f64 {
     }
 }
 
-/// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w − 1, taken in f64
-/// and rounded to f32 once.
+/// Features of every fragment of a pixel: relative depth, number of fragments, and the power moments b0..b4 of z = 2w −
+/// 1, taken in f64 and rounded to f32 once.
 ///
 /// # Source
 /// NMT24 Sec. 3.1 and Eq. 5.
@@ -75,7 +182,8 @@ pub fn extract(pixel: Pixel<'_>, planes: CameraPlanes, out: &mut [f32]) -> Resul
 /// What [`extract`] makes of a pixel, in f32 lanes: window depths become relative depths, and b0..b4 are returned.
 ///
 /// # Accuracy
-/// 1e-6 of b0 in the moments and 2e-6 over the pixel's range of window depth in the depths; `sampled_rows_are_those_of_whole_pixels`.
+/// 1e-6 of b0 in the moments and 2e-6 over the pixel's range of window depth in the depths;
+/// `sampled_rows_are_those_of_whole_pixels`.
 pub fn describe_lanes(n: usize, depth: &mut [Lanes], absorbance: &[Lanes]) -> [f32; 5] {
     let mut range = [f32::INFINITY, f32::NEG_INFINITY];
     for i in 0..n {
@@ -111,13 +219,8 @@ fn describe<S: Simd>(
             term *= z;
             *b += term;
         }
-        // e^x − 1 by its series to degree 10, which leaves 3e-8 at x = 1.
-        let x = (depth - splat(wmin)).max(splat(0.0)).min(splat(1.0));
-        let mut p = splat(1.0 / 3_628_800.0);
-        for c in [362_880.0, 40_320.0, 5040.0, 720.0, 120.0, 24.0, 6.0, 2.0, 1.0f32] {
-            p = p * x + splat(1.0 / c);
-        }
-        w.store((p * x * splat(scale)).min(splat(1.0)));
+        let x = Real::clamp(depth - splat(wmin), c(0.0), c(1.0));
+        w.store(Real::min(expm1(x) * splat(scale), c(1.0)));
     }
     for (sum, b) in sums.iter_mut().zip(b) {
         sum.store(b);
@@ -204,7 +307,8 @@ mod tests {
             prop_assert!((relative_depth(w, lo, hi) - printed).abs() < 1e-13);
         }
 
-        /// In the thinnest pixels d stays within [0, 1] and tends to the linear (w − wmin)/(wmax − wmin). Tolerance: the range itself.
+        /// In the thinnest pixels d stays within [0, 1] and tends to the linear (w − wmin)/(wmax − wmin). Tolerance:
+        /// the range itself.
         #[test]
         fn relative_depth_of_thin_pixels_is_linear(lo in 0.0f64..0.9, exponent in 2.0f64..12.0, u in 0.0f64..=1.0) {
             let range = 10f64.powf(-exponent);

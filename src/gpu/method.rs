@@ -172,6 +172,12 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
                     reason: "its answer is a blending weight, and has no place in these passes".to_owned(),
                 });
             }
+            _ => {
+                return Err(GpuError::Source {
+                    label: label(),
+                    reason: "its core needs a buffer of slots, which these passes do not have".to_owned(),
+                });
+            }
         };
         let source = format!("{export}{glue}");
         Ok(Self {

@@ -5,6 +5,8 @@
 
 pub mod classic;
 pub mod compute;
+#[cfg(test)]
+mod core;
 pub mod device;
 pub mod list;
 pub mod method;

@@ -208,8 +208,9 @@ pub fn save(path: &Path, replace: Replace, mlp: &Mlp) -> Result<(), FileError> {
     write_atomically(path, replace, |w| w.write_all(text.as_bytes()))
 }
 
-/// Reads the weights of another program: a JSON object with `layers`, each `{"weights": [in][out], "biases": [out]}` ("bias" is taken too),
-/// ReLU between them and a sigmoid at the end. Other keys are ignored, `source` is kept as provenance.
+/// Reads the weights of another program: a JSON object with `layers`, each `{"weights": [in][out], "biases": [out]}`
+/// ("bias" is taken too), ReLU between them and a sigmoid at the end. Other keys are ignored, `source` is kept as
+/// provenance.
 ///
 /// # Errors
 /// [`ModelError`].

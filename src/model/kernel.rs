@@ -1,7 +1,8 @@
 //! The forward pass of a network on many rows at once: what training and batched inference share.
 //!
-//! Rows lie side by side in [`Lanes`], a tile of T of them together; a layer is computed for a few units and a few vectors of rows at a time, so that every weight
-//! and every input that is loaded serves several fused multiply-adds from registers.
+//! Rows lie side by side in [`Lanes`], a tile of T of them together; a layer is computed for a few units and a few
+//! vectors of rows at a time, so that every weight and every input that is loaded serves several fused multiply-adds
+//! from registers.
 
 use crate::features::MAX_LOG_ABSORBANCE;
 use crate::numeric::lanes::{LANES, Lanes, exp};
@@ -20,7 +21,17 @@ pub const ZEROS: Row = [Lanes::ZERO; TILE];
 /// Units that are computed together; hidden layers are padded to a multiple.
 pub const UNITS: usize = 8;
 
-/// Layers as the kernels read them: hidden ones padded to whole registers with units that are always 0, the parameters of all in one array.
+/// Hands a macro the sizes of the shipped networks, inputs and hidden layers, for kernels that know them at compile
+/// time: `shipped_sizes!(callback, arguments)` is `callback!(@ [[7, 32, 16] ...] arguments)`. This is their one place.
+macro_rules! shipped_sizes {
+    ($callback:ident, $($arguments:tt)*) => {
+        $callback!(@ [[7, 32, 16] [9, 32, 16] [7, 16, 8]] $($arguments)*)
+    };
+}
+pub(crate) use shipped_sizes;
+
+/// Layers as the kernels read them: hidden ones padded to whole registers with units that are always 0, the parameters
+/// of all in one array.
 #[derive(Debug, Clone)]
 pub struct Padded {
     /// Inputs, then hidden layers with their padding.
@@ -49,7 +60,8 @@ impl Padded {
         self.sizes.iter().sum()
     }
 
-    /// Number of padded parameters: of every hidden layer weights, then biases; of the output layer weights, then its bias.
+    /// Number of padded parameters: of every hidden layer weights, then biases; of the output layer weights, then its
+    /// bias.
     pub fn count(&self) -> usize {
         self.sizes.windows(2).map(|s| (s[0] + 1) * s[1]).sum::<usize>() + self.sizes[self.sizes.len() - 1] + 1
     }
@@ -90,7 +102,8 @@ impl Padded {
     }
 }
 
-/// All hidden layers of a tile, whose inputs stand in the first rows: the activations of each layer come to stand behind its inputs.
+/// All hidden layers of a tile, whose inputs stand in the first rows: the activations of each layer come to stand
+/// behind its inputs.
 ///
 /// Returned are the row where the output layer's inputs begin, and the place where its parameters do.
 ///
@@ -109,14 +122,16 @@ pub fn hidden_layers<S: Simd>(simd: S, sizes: &[usize], parameters: &[f32], rows
     (row, at)
 }
 
-/// The absorbance b that [`Answer::AbsorbanceShare`](crate::features::Answer::AbsorbanceShare) scales, from the feature that is ln(b + offset).
+/// The absorbance b that [`Answer::AbsorbanceShare`](crate::features::Answer::AbsorbanceShare) scales, from the feature
+/// that is ln(b + offset).
 #[inline(always)]
 pub fn absorbance<S: Simd>(simd: S, log: f32x16<S>, offset: f32) -> f32x16<S> {
     let splat = |x: f32| f32x16::splat(simd, x);
     (exp(simd, log.min(splat(MAX_LOG_ABSORBANCE))) - splat(offset)).max(splat(0.0))
 }
 
-/// Whether the registers of this level hold a whole vector of sixteen: then there are 32 of them, and larger blocks pay.
+/// Whether the registers of this level hold a whole vector of sixteen: then there are 32 of them, and larger blocks
+/// pay.
 #[inline(always)]
 pub fn wide<S: Simd>() -> bool {
     S::f32s::LEN == LANES

@@ -7,7 +7,7 @@ pub mod shipped;
 pub mod simplify;
 
 pub use file::ModelError;
-pub use mlp::{Dense, Mlp, ShapeError, Tiled};
+pub use mlp::{Dense, Mlp, ShapeError};
 
 use serde::{Deserialize, Serialize};
 

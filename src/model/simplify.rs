@@ -1,8 +1,10 @@
-//! Networks without what does nothing: units that never fire are taken out, constant features become biases, and what is left answers the same.
+//! Networks without what does nothing: units that never fire are taken out, constant features become biases, and what
+//! is left answers the same.
 //!
-//! Which units never fire is known in two ways. [`always_silent`] finds those that cannot, or that nothing listens to, whatever the features are: taking them out
-//! is exact everywhere. [`activity`] counts on rows of features: what is silent on all of them may be taken out exactly for these rows, and for every other
-//! row on which it stays silent; [`fires`] tells.
+//! Which units never fire is known in two ways. [`always_silent`] finds those that cannot, or that nothing listens to,
+//! whatever the features are: taking them out is exact everywhere. [`activity`] counts on rows of features: what is
+//! silent on all of them may be taken out exactly for these rows, and for every other row on which it stays silent;
+//! [`fires`] tells.
 
 use super::{Dense, Mlp, ShapeError};
 use rayon::prelude::*;
@@ -17,7 +19,8 @@ pub type Units = Vec<Vec<usize>>;
 pub struct Pruned {
     /// Units of the trained network.
     pub units: Units,
-    /// Rows of features on which none of them fired; 0 where they cannot fire, or nothing listens to them, whatever the features are.
+    /// Rows of features on which none of them fired; 0 where they cannot fire, or nothing listens to them, whatever the
+    /// features are.
     pub rows: u64,
     /// Multiply-adds before.
     pub of_multiply_adds: usize,
@@ -46,7 +49,8 @@ pub enum SimplifyError {
 }
 
 impl Pruned {
-    /// As one line of text: `layer 1 without 3, 17; layer 2 without 5; silent on 1000000 rows; 752 multiply-adds before`.
+    /// As one line of text: `layer 1 without 3, 17; layer 2 without 5; silent on 1000000 rows; 752 multiply-adds
+    /// before`.
     pub fn to_text(&self) -> String {
         let layer = |(l, units): (usize, &Vec<usize>)| {
             let list: Vec<String> = units.iter().map(usize::to_string).collect();
@@ -117,7 +121,8 @@ impl Activity {
     }
 }
 
-/// Hidden layers' values for a row, in f32, in the order of the reference forward pass, with `visit(layer, values)` after each.
+/// Hidden layers' values for a row, in f32, in the order of the reference forward pass, with `visit(layer, values)`
+/// after each.
 pub fn walk(mlp: &Mlp, row: &[f32], mut visit: impl FnMut(usize, &[f32])) {
     let mut x = row.to_vec();
     let hidden = &mlp.layers()[..mlp.layers().len() - 1];
@@ -183,8 +188,9 @@ pub fn fires(mlp: &Mlp, units: &Units, row: &[f32]) -> bool {
     any
 }
 
-/// Units that cannot fire, or that nothing listens to, whatever the features are: incoming weights that are 0, or negative from units that are never negative, with
-/// a bias that is not positive; outgoing weights that are all 0. What only listens to such units, or is heard by them alone, is one too.
+/// Units that cannot fire, or that nothing listens to, whatever the features are: incoming weights that are 0, or
+/// negative from units that are never negative, with a bias that is not positive; outgoing weights that are all 0. What
+/// only listens to such units, or is heard by them alone, is one too.
 pub fn always_silent(mlp: &Mlp) -> Units {
     let layers = mlp.layers();
     let hidden = layers.len() - 1;
@@ -227,7 +233,8 @@ pub fn union(a: &Units, b: &Units) -> Units {
 /// The network without these hidden units. A layer keeps its first unit where all of them are listed.
 ///
 /// # Accuracy
-/// Identical bits, for [`Mlp::forward`] in either precision and the plain export, for every row on which none of them fires.
+/// Identical bits, for [`Mlp::forward`] in either precision and the plain export, for every row on which none of them
+/// fires.
 ///
 /// # Errors
 /// [`SimplifyError::NoUnit`].
@@ -264,7 +271,8 @@ pub fn without_units(mlp: &Mlp, units: &Units) -> Result<Mlp, SimplifyError> {
     Ok(Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone())?)
 }
 
-/// The network with features that always have the same value folded into the biases of its first layer; their weights become 0, and the columns stay.
+/// The network with features that always have the same value folded into the biases of its first layer; their weights
+/// become 0, and the columns stay.
 ///
 /// # Accuracy
 /// Biases are summed in f64 and rounded once: the answers differ from the whole network's by the rounding of f32 sums.
@@ -291,7 +299,8 @@ pub fn with_constant_features(mlp: &Mlp, constants: &[(usize, f32)]) -> Result<M
     Ok(Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone())?)
 }
 
-/// The network without what never fires: what cannot, and where rows of features are given, what stays silent on all of them. Its provenance says what was taken out.
+/// The network without what never fires: what cannot, and where rows of features are given, what stays silent on all of
+/// them. Its provenance says what was taken out.
 ///
 /// # Accuracy
 /// As [`without_units`].
@@ -359,8 +368,8 @@ mod tests {
             .collect()
     }
 
-    /// Without silent units the answers keep their bits in both precisions. Controls: without a unit that fires they do not, and rows that make a silent
-    /// unit fire are told apart.
+    /// Without silent units the answers keep their bits in both precisions. Controls: without a unit that fires they do
+    /// not, and rows that make a silent unit fire are told apart.
     #[test]
     fn silent_units_can_go() {
         let (mlp, rows) = (lazy(), rows(1, 4000));
@@ -401,7 +410,8 @@ mod tests {
         assert!(rows.chunks_exact(7).all(|row| !fires(&mlp, &silent, row)));
     }
 
-    /// What can never fire, and what is never heard, with what follows from it; exact for every row, and no row is needed.
+    /// What can never fire, and what is never heard, with what follows from it; exact for every row, and no row is
+    /// needed.
     #[test]
     fn units_that_can_never_matter() {
         let mlp = random_mlp(&[4, 3, 3], 5);

@@ -1,10 +1,10 @@
 //! Content hashes.
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 /// SHA-256 of the concatenated parts, as 64 lower-case hexadecimal digits.
 pub fn sha256_hex<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
-    let mut hash = Sha256::new();
+    let mut hash = Hash::new();
     for part in parts {
         hash.update(part);
     }

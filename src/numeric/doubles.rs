@@ -1,7 +1,9 @@
-//! Eight f64 side by side, and the functions on them that random pixels need: to the bit what [`libm`] gives, at every SIMD level.
+//! Eight f64 side by side, and the functions on them that random pixels need: to the bit what [`libm`] gives, at every
+//! SIMD level.
 //!
-//! Published seeds are pinned to the bytes that `libm`'s functions gave them. `libm` follows fdlibm, so the functions here do too: the same reduction, the
-//! same polynomials, multiplications and additions apart and in the same order, eight times at once.
+//! Published seeds are pinned to the bytes that `libm`'s functions gave them. `libm` follows fdlibm, so the functions
+//! here do too: the same reduction, the same polynomials, multiplications and additions apart and in the same order,
+//! eight times at once.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -84,7 +86,8 @@ pub fn exp<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
 /// [`libm::log`] to the bit.
 ///
 /// # Source
-/// Sun Microsystems, fdlibm 5.3, 1993: x = 2^k (1 + f) with 1 + f in [√½, √2), and ln(1 + f) by a polynomial in s = f/(2 + f).
+/// Sun Microsystems, fdlibm 5.3, 1993: x = 2^k (1 + f) with 1 + f in [√½, √2), and ln(1 + f) by a polynomial in s =
+/// f/(2 + f).
 #[inline(always)]
 pub fn ln<S: Simd>(simd: S, x: f64x8<S>) -> f64x8<S> {
     let splat = |v: f64| f64x8::splat(simd, v);

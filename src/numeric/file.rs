@@ -72,8 +72,8 @@ pub fn create_folder(path: &Path) -> Result<(), FileError> {
 /// Writes a file through a temporary one in the same folder that is renamed into place once it is whole and on disk.
 ///
 /// # Errors
-/// [`FileError::Exists`] under [`Replace::No`]; [`FileError::Io`] for whatever the system or `write` reports. In both cases
-/// what stood at `path` is untouched and the temporary file is gone.
+/// [`FileError::Exists`] under [`Replace::No`]; [`FileError::Io`] for whatever the system or `write` reports. In both
+/// cases what stood at `path` is untouched and the temporary file is gone.
 pub fn write_atomically(
     path: &Path,
     replace: Replace,

@@ -1,7 +1,7 @@
 //! Sixteen f32 side by side, and the functions on them that kernels need.
 //!
-//! Everything in this file multiplies and adds apart, so that it gives the same bits at every SIMD level; fused multiply-adds are left to the
-//! kernels that say so.
+//! Everything in this file multiplies and adds apart, so that it gives the same bits at every SIMD level; fused
+//! multiply-adds are left to the kernels that say so.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, i32x16};
@@ -40,8 +40,8 @@ impl Lanes {
 /// At most 2 ULP there; measured by `exp_and_ln_stay_within_their_ulps`.
 ///
 /// # Source
-/// Cody–Waite reduction by ln 2 in two parts; the polynomial is the Taylor series of (e^r − 1 − r)/r² on |r| ≤ ln 2 / 2 to degree 5, which
-/// leaves 6e-9.
+/// Cody–Waite reduction by ln 2 in two parts; the polynomial is the Taylor series of (e^r − 1 − r)/r² on |r| ≤ ln 2 / 2
+/// to degree 5, which leaves 6e-9.
 #[inline(always)]
 pub fn exp<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let splat = |v: f32| f32x16::splat(simd, v);
@@ -67,7 +67,8 @@ pub fn exp<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
 /// At most 2 ULP; measured by `exp_and_ln_stay_within_their_ulps`.
 ///
 /// # Source
-/// x = 2^e m with m in [√½, √2); ln m = 2 atanh(s), s = (m − 1)/(m + 1), by the odd series of atanh to degree 11, which leaves 3e-11.
+/// x = 2^e m with m in [√½, √2); ln m = 2 atanh(s), s = (m − 1)/(m + 1), by the odd series of atanh to degree 11, which
+/// leaves 3e-11.
 #[inline(always)]
 pub fn ln<S: Simd>(simd: S, x: f32x16<S>) -> f32x16<S> {
     let splat = |v: f32| f32x16::splat(simd, v);

@@ -1,4 +1,5 @@
-//! NumPy's `.npy` and `.npz` files, read defensively: whatever the bytes say, memory stays bounded by what is really there.
+//! NumPy's `.npy` and `.npz` files, read defensively: whatever the bytes say, memory stays bounded by what is really
+//! there.
 
 use super::file::{FileError, Replace, write_atomically};
 use ndarray::{ArrayD, ArrayView, ArrayViewD, Dimension};
@@ -92,7 +93,8 @@ fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, String> {
     match ArrayViewD::<T>::view_npy(bytes) {
         Ok(view) => Ok(view.to_owned()),
         Err(ViewNpyError::MisalignedData) => {
-            // Copy to where the element data is aligned; the header's length is the same, so some shift below the alignment fits.
+            // Copy to where the element data is aligned; the header's length is the same, so some shift below the
+            // alignment fits.
             let mut shifted = vec![0u8; bytes.len() + align_of::<T>()];
             let mut last = ViewNpyError::MisalignedData;
             for shift in 0..align_of::<T>() {
@@ -233,8 +235,8 @@ impl Npz {
     }
 }
 
-/// Writes an `.npz` archive of already encoded arrays ([`encode`]), stored without compression and without time stamps: the same
-/// arrays give the same bytes.
+/// Writes an `.npz` archive of already encoded arrays ([`encode`]), stored without compression and without time stamps:
+/// the same arrays give the same bytes.
 ///
 /// # Errors
 /// [`FileError`]; nothing half-written is left.
@@ -329,7 +331,8 @@ mod tests {
         }
     }
 
-    /// A header that promises 4 GiB of itself, in every version of the format. Control: the same with its true length is read.
+    /// A header that promises 4 GiB of itself, in every version of the format. Control: the same with its true length
+    /// is read.
     #[test]
     fn absurd_headers_allocate_nothing() {
         let good = encode(arr1(&[1.0f32, 2.0]).view());

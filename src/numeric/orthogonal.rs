@@ -1,4 +1,5 @@
-//! Measures on the real line known by their moments: orthogonal polynomials, and the representation by few atoms that has one at a given place.
+//! Measures on the real line known by their moments: orthogonal polynomials, and the representation by few atoms that
+//! has one at a given place.
 
 use super::Scalar;
 use super::roots::{MAX_ROOTS, real_roots};
@@ -6,7 +7,8 @@ use super::roots::{MAX_ROOTS, real_roots};
 /// Beyond this distance from the prescribed atom, another one has no mass: at most h_n · 1e-16 for n = 2, less above.
 const FAR: f64 = 1e4;
 
-/// Monic orthogonal polynomials π_0..π_N of a measure: their three-term recurrence π_{k+1} = (x − α_k) π_k − β_k π_{k−1} and their squared norms h_k.
+/// Monic orthogonal polynomials π_0..π_N of a measure: their three-term recurrence π_{k+1} = (x − α_k) π_k − β_k
+/// π_{k−1} and their squared norms h_k.
 ///
 /// # Shapes
 /// N ≤ 4.
@@ -37,8 +39,8 @@ impl<R: Scalar> MassBounds<R> {
 impl<R: Scalar, const N: usize> Orthogonal<R, N> {
     /// The polynomials of the measure with these moments, by a factorisation L D Lᵀ of their Hankel matrix.
     ///
-    /// Row k of D Lᵀ is found from the two rows above it by Chebyshev's algorithm; D holds the h_k. Where an h_k is not positive, the moments are not those
-    /// of a measure with more than k atoms, and everything is NaN.
+    /// Row k of D Lᵀ is found from the two rows above it by Chebyshev's algorithm; D holds the h_k. Where an h_k is not
+    /// positive, the moments are not those of a measure with more than k atoms, and everything is NaN.
     ///
     /// # Shapes
     /// `moments: [2N + 1]`, m_0 first.
@@ -122,8 +124,8 @@ impl<R: Scalar, const N: usize> Orthogonal<R, N> {
         self.norm[N]
     }
 
-    /// Greatest h_N that a measure on [low, high] with these π_0..π_N can have: that at which (x − α) π_N − h_N/h_{N−1} π_{N−1} has a root at either end
-    /// (Gauss–Lobatto quadrature).
+    /// Greatest h_N that a measure on [low, high] with these π_0..π_N can have: that at which (x − α) π_N − h_N/h_{N−1}
+    /// π_{N−1} has a root at either end (Gauss–Lobatto quadrature).
     pub fn greatest_last_norm(&self, low: R, high: R) -> R {
         let ratio = |x: R| {
             let (mut before, mut here) = (R::ZERO, R::ONE);
@@ -150,7 +152,8 @@ impl<R: Scalar, const N: usize> Orthogonal<R, N> {
         sum
     }
 
-    /// The representation by N atoms that has the moments m_0..m_{2N−1} (Gauss' quadrature): atoms in ascending order and their masses.
+    /// The representation by N atoms that has the moments m_0..m_{2N−1} (Gauss' quadrature): atoms in ascending order
+    /// and their masses.
     pub fn gauss(&self) -> ([R; N], [R; N]) {
         // Coefficients of π_N about the centre of the atoms, which is where they are smallest.
         let mut centre = R::ZERO;
@@ -185,15 +188,17 @@ impl<R: Scalar, const N: usize> Orthogonal<R, N> {
 
     /// Sharp bounds on the mass in front of `x`.
     ///
-    /// Of all measures with the given moments, the one with an atom of the greatest possible mass at x is extremal there. Its other atoms are the roots of the
-    /// kernel polynomial K(x, ·). They are found as s = 1/(atom − x): in s the polynomial's leading coefficient is K(x, x) > 0, so that an atom at infinity is the
-    /// harmless s = 0, and the atoms in front of x are the negative roots.
+    /// Of all measures with the given moments, the one with an atom of the greatest possible mass at x is extremal
+    /// there. Its other atoms are the roots of the kernel polynomial K(x, ·). They are found as s = 1/(atom − x): in s
+    /// the polynomial's leading coefficient is K(x, x) > 0, so that an atom at infinity is the harmless s = 0, and the
+    /// atoms in front of x are the negative roots.
     ///
     /// # Source
     /// MKKP18 Algorithm 1, which solves the same equations by divided differences.
     ///
     /// # Accuracy
-    /// 1e-9 relative to the total mass against an independent program, in f64 with a bias of 1e-3 (`moments::hamburger::tests::agrees_with_*`).
+    /// 1e-9 relative to the total mass against an independent program, in f64 with a bias of 1e-3
+    /// (`moments::hamburger::tests::agrees_with_*`).
     pub fn bounds(&self, x: R) -> MassBounds<R> {
         let mut before = [R::ZERO; MAX_ROOTS + 1];
         let mut here = before;
@@ -274,8 +279,8 @@ mod tests {
     }
 
     proptest! {
-        /// Gauss' atoms are the atoms themselves, and rebuilding the polynomials from them changes nothing. Tolerance 1e-7: masses and gaps of 0.05 leave an h_3
-        /// of at least 1e-9.
+        /// Gauss' atoms are the atoms themselves, and rebuilding the polynomials from them changes nothing. Tolerance
+        /// 1e-7: masses and gaps of 0.05 leave an h_3 of at least 1e-9.
         #[test]
         fn gauss_round_trip(gaps in prop::collection::vec(0.2f64..0.5, 4), masses in prop::collection::vec(0.05f64..1.0, 4), last in 0.01f64..1.0) {
             let mut at = -1.0;
@@ -305,7 +310,8 @@ mod tests {
         }
     }
 
-    /// The control of the test above: bounds of another measure do not hold the truth. A measure shifted by 0.6 has its mass elsewhere.
+    /// The control of the test above: bounds of another measure do not hold the truth. A measure shifted by 0.6 has its
+    /// mass elsewhere.
     #[test]
     fn bounds_of_another_measure_do_not_hold_the_truth() {
         let atoms: Vec<(f64, f64)> = (0..9).map(|i| (-0.9 + 0.1 * f64::from(i), 0.3)).collect();

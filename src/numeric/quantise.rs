@@ -20,7 +20,8 @@ pub fn round_f16(x: f64) -> f64 {
 #[inline]
 pub fn round_f16_of_f32(x: f32) -> f32 {
     let bits = x.to_bits();
-    // A half has 13 bits less; half of the last place but one ulp is added, and that ulp where it makes the last place even.
+    // A half has 13 bits less; half of the last place but one ulp is added, and that ulp where it makes the last place
+    // even.
     let normal = f32::from_bits(bits.wrapping_add(0xfff + ((bits >> 13) & 1)) & !0x1fff);
     // Beside ½ an f32 has the spacing of the subnormal halves, 2^-24.
     let subnormal = ((x.abs() + 0.5) - 0.5).copysign(x);
@@ -71,7 +72,8 @@ mod tests {
         }
     }
 
-    /// The fast rounding is the other one's, for every exponent, for halves, what lies halfway between them, and their neighbours.
+    /// The fast rounding is the other one's, for every exponent, for halves, what lies halfway between them, and their
+    /// neighbours.
     #[test]
     fn halves_of_f32() {
         let compare = |x: f32| {

@@ -28,19 +28,21 @@
 //! assert!((log_ratio(1.001, 1.0) - 0.000_999_500_3).abs() < 1e-9f64);
 //! ```
 //!
-//! - Constants are [`c`]`(0.5)`, on either side of an operator; where a number of the kind itself is needed, `x.like(0.5)`.
-//! - There is no `if`: a comparison gives a mask, and [`Real::select`] takes one of two values that are both computed. Neither
-//!   may trap, and what is not taken may be NaN or infinite.
-//! - [`Real::named`] gives a value the name that it has in shader source. A value that is used more than once needs a name, or
-//!   its text is written again at each use. On numbers it does nothing.
+//! - Constants are [`c`]`(0.5)`, on either side of an operator; where a number of the kind itself is needed,
+//!   `x.like(0.5)`.
+//! - There is no `if`: a comparison gives a mask, and [`Real::select`] takes one of two values that are both computed.
+//!   Neither may trap, and what is not taken may be NaN or infinite.
+//! - [`Real::named`] gives a value the name that it has in shader source. A value that is used more than once needs a
+//!   name, or its text is written again at each use. On numbers it does nothing.
 //! - [`Real::note`] puts a comment in front of the next statement of the source.
-//! - [`Real::step`] makes a part of a derivation a function of its own in shader source, defined once; on numbers it is the
-//!   closure that it holds. [`Real::step_array`] is the same for parts that take or give an array.
-//! - Words of 32 bits, for packed codes, are [`Real::Word`]: `x.to_bits()`, `word.bits_to_real()`, `word >> 12`, `word & 0xfff`.
+//! - [`Real::step`] makes a part of a derivation a function of its own in shader source, defined once; on numbers it is
+//!   the closure that it holds. [`Real::step_array`] is the same for parts that take or give an array.
+//! - Words of 32 bits, for packed codes, are [`Real::Word`]: `x.to_bits()`, `word.bits_to_real()`, `word >> 12`,
+//!   `word & 0xfff`.
 //! - Every such function is `#[inline(always)]`, so that it is compiled for the SIMD level of its caller.
 //!
-//! Multiplication and addition stay apart in every kind but where a device fuses them, and are done in the order in which they
-//! are written.
+//! Multiplication and addition stay apart in every kind but where a device fuses them, and are done in the order in
+//! which they are written.
 
 use super::lanes;
 use fearless_simd::prelude::*;
@@ -241,21 +243,23 @@ pub trait Real:
         body(std::array::from_fn(|i| parameters[i].1))
     }
 
-    /// [`Self::step`] with an array behind the other parameters, and an array as the result; N and K may be 0.
+    /// [`Self::step`] with an array behind the other parameters, and an array as the result, by the name that it has in
+    /// its caller; N and K may be 0.
     #[inline(always)]
     fn step_array<const N: usize, const K: usize, const M: usize>(
         _name: &str,
         _about: &str,
         parameters: [(&str, Self); N],
         array: (&str, [Self; K]),
+        _result: &str,
         body: impl FnOnce([Self; N], [Self; K]) -> [Self; M],
     ) -> [Self; M] {
         body(std::array::from_fn(|i| parameters[i].1), array.1)
     }
 }
 
-/// A number that others are divided by again and again: scalar code on the CPU divides, which rounds once; lanes and shaders
-/// multiply by its reciprocal.
+/// A number that others are divided by again and again: scalar code on the CPU divides, which rounds once; lanes and
+/// shaders multiply by its reciprocal.
 #[derive(Debug, Clone, Copy)]
 pub struct Divisor<R> {
     /// The number.
@@ -470,8 +474,8 @@ macro_rules! scalar {
 scalar!(f32, libm::expf, libm::logf, libm::exp2f, libm::log2f);
 scalar!(f64, libm::exp, libm::log, libm::exp2, libm::log2);
 
-/// Sixteen numbers in f32. Functions have the domains and accuracy of [`lanes`]: a logarithm of what is not a normal positive
-/// number is garbage.
+/// Sixteen numbers in f32. Functions have the domains and accuracy of [`lanes`]: a logarithm of what is not a normal
+/// positive number is garbage.
 impl<S: Simd> Real for f32x16<S> {
     type Mask = mask32x16<S>;
     type Word = u32x16<S>;

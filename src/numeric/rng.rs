@@ -238,7 +238,8 @@ mod tests {
         rng
     }
 
-    /// Word for word what an independent ChaCha8 gives, in any mixture of single and double words and bytes. Control: the neighbouring stream.
+    /// Word for word what an independent ChaCha8 gives, in any mixture of single and double words and bytes. Control:
+    /// the neighbouring stream.
     #[test]
     fn words_are_those_of_chacha8() {
         let big = 0x0123_4567_89ab_cdef;
@@ -269,7 +270,8 @@ mod tests {
         }
     }
 
-    /// Numbers made many at a time are those made one by one, and multiples of 2^−52 below 1; words shown are words to come.
+    /// Numbers made many at a time are those made one by one, and multiples of 2^−52 below 1; words shown are words to
+    /// come.
     #[test]
     fn units_follow_the_words() {
         let (mut many, mut one) = (stream(1, 2, 4), stream(1, 2, 4));

@@ -8,11 +8,13 @@ pub const MAX_ROOTS: usize = 4;
 /// Most steps of one root: enough to halve a bracket down to one unit in the last place from any start.
 const STEPS: usize = 200;
 
-/// The roots of c_0 + c_1 x + … + c_d x^d in ascending order, the first d entries of the result, for a polynomial all of whose roots are real.
+/// The roots of c_0 + c_1 x + … + c_d x^d in ascending order, the first d entries of the result, for a polynomial all
+/// of whose roots are real.
 ///
-/// Degrees 1 and 2 are solved in closed form without cancellation. Above that the roots of the derivative, found in the same way, bracket
-/// the roots one by one, Laguerre's and Samuelson's bounds close the outer brackets, and a Newton iteration that is kept within its bracket finds each. The result is
-/// therefore always real: where rounding has pushed a close pair off the real line, it is the nearby extremum twice.
+/// Degrees 1 and 2 are solved in closed form without cancellation. Above that the roots of the derivative, found in the
+/// same way, bracket the roots one by one, Laguerre's and Samuelson's bounds close the outer brackets, and a Newton
+/// iteration that is kept within its bracket finds each. The result is therefore always real: where rounding has pushed
+/// a close pair off the real line, it is the nearby extremum twice.
 ///
 /// # Shapes
 /// `coefficients: [d + 1]`, 1 ≤ d ≤ [`MAX_ROOTS`], c_0 first, c_d ≠ 0.
@@ -58,7 +60,8 @@ fn bracketed<R: Scalar>(c: &[R], roots: &mut [R; MAX_ROOTS]) {
         derivative[k - 1] = c[k] * R::from_f64(k as f64);
     }
     let extrema = real_roots(&derivative[..degree]);
-    // Every root lies within (d − 1)/d · sqrt(a² − 2d/(d − 1) b) of −a/d, a and b the next coefficients of the monic polynomial.
+    // Every root lies within (d − 1)/d · sqrt(a² − 2d/(d − 1) b) of −a/d, a and b the next coefficients of the monic
+    // polynomial.
     let d = R::from_f64(degree as f64);
     let less = R::from_f64((degree - 1) as f64);
     let (a, b) = (c[degree - 1] / c[degree], c[degree - 2] / c[degree]);
@@ -130,8 +133,9 @@ mod tests {
     }
 
     proptest! {
-        /// Roots at least 0.05 apart in [−2, 2], to 1e-10 in f64 and 2e-2 in f32: coefficients rounded to ε move a root by ε · Σ|c x^k| / |p'|, at most
-        /// 2e-16 · 81 / 0.05³ = 1.3e-10 for four of them at 2; typical ones are far better.
+        /// Roots at least 0.05 apart in [−2, 2], to 1e-10 in f64 and 2e-2 in f32: coefficients rounded to ε move a root
+        /// by ε · Σ|c x^k| / |p'|, at most 2e-16 · 81 / 0.05³ = 1.3e-10 for four of them at 2; typical ones are far
+        /// better.
         #[test]
         fn roots_are_recovered(gaps in prop::collection::vec(0.05f64..1.0, 1..=4), scale in prop_oneof![-9.0f64..-0.1, 0.1f64..9.0]) {
             let total: f64 = gaps.iter().sum();
@@ -149,7 +153,8 @@ mod tests {
             }
         }
 
-        /// One root many orders of magnitude away costs neither it nor the others their digits. Tolerance 1e-9 relative to the root's size and to 1.
+        /// One root many orders of magnitude away costs neither it nor the others their digits. Tolerance 1e-9 relative
+        /// to the root's size and to 1.
         #[test]
         fn far_roots(near in prop::collection::vec(0.1f64..0.9, 1..=3), exponent in 1.0f64..8.0, negative in any::<bool>()) {
             let mut roots: Vec<f64> = near.iter().enumerate().map(|(i, r)| i as f64 + r * 0.8).collect();

@@ -5,9 +5,9 @@ use std::iter::Sum;
 
 /// A binary floating-point number, `f32`, `f64` or a device's, which code may compare and branch on.
 ///
-/// Transcendental functions come from the `libm` crate and not from the platform, so that the same input gives the same bits
-/// on every machine. Multiplication and addition stay separate: nothing here contracts to a fused multiply-add. Of two numbers
-/// of which one is NaN, the lesser and the greater are the other.
+/// Transcendental functions come from the `libm` crate and not from the platform, so that the same input gives the same
+/// bits on every machine. Multiplication and addition stay separate: nothing here contracts to a fused multiply-add. Of
+/// two numbers of which one is NaN, the lesser and the greater are the other.
 pub trait Scalar: Real<Mask = bool> + PartialOrd + Send + Sync + std::fmt::Debug + Sum + 'static {
     /// 0.
     const ZERO: Self;

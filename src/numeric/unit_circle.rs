@@ -1,5 +1,5 @@
-//! Measures on the complex unit circle known by their trigonometric moments: Szegő polynomials, and the representation by few atoms that has one at
-//! a given place.
+//! Measures on the complex unit circle known by their trigonometric moments: Szegő polynomials, and the representation
+//! by few atoms that has one at a given place.
 
 use super::Scalar;
 use super::complex::Complex;
@@ -45,7 +45,8 @@ pub struct CircleAtom<R> {
     pub mass: R,
 }
 
-/// Monic Szegő polynomials φ_0..φ_M of a measure on the unit circle: reflection coefficients of φ_{k+1} = x φ_k − ā_k φ*_k and squared norms E_k.
+/// Monic Szegő polynomials φ_0..φ_M of a measure on the unit circle: reflection coefficients of φ_{k+1} = x φ_k − ā_k
+/// φ*_k and squared norms E_k.
 ///
 /// # Shapes
 /// M ≤ 4.
@@ -56,9 +57,11 @@ pub struct Szego<R, const M: usize> {
 }
 
 impl<R: Scalar, const M: usize> Szego<R, M> {
-    /// The polynomials of the measure with mass m_0 and moments m_1..m_M, m_k = ∫ x^k, by Levinson's algorithm on their Toeplitz matrix.
+    /// The polynomials of the measure with mass m_0 and moments m_1..m_M, m_k = ∫ x^k, by Levinson's algorithm on their
+    /// Toeplitz matrix.
     ///
-    /// Where an E_k is not positive, the moments are not those of a measure with more than k atoms, and everything is NaN.
+    /// Where an E_k is not positive, the moments are not those of a measure with more than k atoms, and everything is
+    /// NaN.
     pub fn from_moments(mass: R, moments: &[Complex<R>; M]) -> Self {
         let mut reflection = [Complex::ZERO; M];
         let mut norm = [R::ZERO; MAX_ROOTS + 1];
@@ -131,8 +134,9 @@ impl<R: Scalar, const M: usize> Szego<R, M> {
 
     /// The M + 1 atoms of the one measure with these moments that has M + 1 atoms, the first of them at x0.
     ///
-    /// The other atoms are the roots of the kernel polynomial. With x = −x0 (1 + i s)/(1 − i s) the circle without x0 becomes the real line and the
-    /// polynomial a real one of the same degree with M real roots and leading coefficient K(x0, x0) > 0, so that every atom lies on the circle by construction.
+    /// The other atoms are the roots of the kernel polynomial. With x = −x0 (1 + i s)/(1 − i s) the circle without x0
+    /// becomes the real line and the polynomial a real one of the same degree with M real roots and leading coefficient
+    /// K(x0, x0) > 0, so that every atom lies on the circle by construction.
     ///
     /// # Source
     /// MKKP18 Algorithm 2, which finds the roots as complex numbers and the masses by divided differences.
@@ -247,7 +251,8 @@ mod tests {
                 "{root:?} in {found:?}"
             );
         }
-        // The control: the polynomial of a non-positive Toeplitz matrix has roots off the circle, and the atoms are NaN.
+        // The control: the polynomial of a non-positive Toeplitz matrix has roots off the circle, and the atoms are
+        // NaN.
         let bad = Szego::<f64, M>::from_moments(
             total,
             &m.map(|m| m.scale(3.0 * total / (m.norm_squared().sqrt() + 1e-3 * total))),

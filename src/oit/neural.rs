@@ -2,68 +2,20 @@
 
 use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError, deep_weighted_blended};
-use crate::features::passes::{Class, Column, Network, ROWS, Switches, Tally};
-use crate::features::{Extracted, Extractor, FeatureSet, MomentDepthKind, MomentFrame, SumPrecision};
-use crate::model::kernel::Row;
-use crate::model::{Mlp, Tiled, shipped};
-use crate::numeric::lanes::LANES;
-use crate::pixel::{FragmentList, abuffer};
-use serde::{Deserialize, Serialize};
+use super::{Accumulated, Context, Method, MethodError, core, deep_weighted_blended};
+use crate::features::{Extractor, FeatureSet, MomentFrame, SumPrecision};
+use crate::infer::{self, Switches};
+pub use crate::infer::{Answered, Skip};
+use crate::model::{Mlp, shipped};
+use crate::pixel::FragmentList;
 use std::path::Path;
-use std::time::Instant;
-
-/// Which fragments a network is run for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Skip {
-    /// All; what is known exactly then replaces its answers.
-    None,
-    /// Those whose answer is used: the same transmittances to the bit.
-    #[default]
-    Exact,
-    /// Those that can be seen: no channel of the image changes by more than half a display step, 1/512; see
-    /// [`visible`](crate::features::visible).
-    Visible,
-}
-
-impl Skip {
-    /// What it switches on.
-    pub fn switches(self) -> Switches {
-        match self {
-            Self::None => Switches::default(),
-            Self::Exact => Switches {
-                ends: true,
-                short: true,
-                ..Switches::default()
-            },
-            Self::Visible => Switches {
-                ends: true,
-                short: true,
-                faint: true,
-                hidden: true,
-            },
-        }
-    }
-}
 
 /// A network as a transparency method.
 pub struct Neural {
     mlp: Mlp,
     switches: Switches,
-    storage: SumPrecision,
+    precision: SumPrecision,
     frame: MomentFrame,
-}
-
-/// A network's answers, and what was done for them.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Answered {
-    /// Transmittance (or the like) of every fragment, in the order of the list.
-    pub transmittance: Vec<f32>,
-    /// What decided each.
-    pub classes: Vec<Class>,
-    /// How many fragments each class has, and how long it took.
-    pub tally: Tally,
 }
 
 /// The method by its name, `neural:MODEL`; it is in no list of all methods, since it needs a file.
@@ -93,7 +45,7 @@ impl Neural {
         Self {
             mlp,
             switches: Skip::default().switches(),
-            storage: SumPrecision::default(),
+            precision: SumPrecision::default(),
             frame: MomentFrame::default(),
         }
     }
@@ -109,14 +61,14 @@ impl Neural {
     }
 
     /// The same on moments that pass 1 adds up in another precision, where the feature set leaves that open.
-    pub fn with_storage(self, storage: SumPrecision) -> Self {
-        Self { storage, ..self }
+    pub fn with_precision(self, precision: SumPrecision) -> Self {
+        Self { precision, ..self }
     }
 
     /// The same on moments of another frame, where the feature set takes moments of logarithmic depth: `Pixel` stands
     /// for a prepass that has found each pixel's nearest and farthest fragment.
     pub fn with_frame(self, frame: MomentFrame) -> Self {
-        let frame = if self.mlp.feature_set().moment_depth() == MomentDepthKind::Log {
+        let frame = if self.mlp.feature_set().spec().sums.has_precisions {
             frame
         } else {
             MomentFrame::Scene
@@ -163,10 +115,7 @@ impl Neural {
             .map(|answered| answered.transmittance)
     }
 
-    /// [`Self::transmittance`] with what decided each answer, and how long both passes took.
-    ///
-    /// Recentred features are made in f32, sixteen at once ([`Passes`](crate::features::passes::Passes)); the others in
-    /// f64, rounded to f32. The forward pass is f32.
+    /// [`Self::transmittance`] with what decided each answer, and how long both passes took; see [`infer::answers`].
     ///
     /// # Errors
     /// As [`Self::transmittance`].
@@ -176,131 +125,11 @@ impl Neural {
         context: Context,
         progress: &dyn Fn(u64),
     ) -> Result<Answered, MethodError> {
-        // Pixels are taken in runs of about this many fragments, so that what is made of them stays a few megabytes.
-        const RUN: u64 = 1 << 18;
         let extractor = Extractor::for_list(self.mlp.feature_set(), list, context.planes, context.depth_range)
-            .map_err(|e| self.error(e))?;
-        let extractor = extractor.with_storage(self.storage).with_frame(self.frame);
-        let passes = extractor.passes();
-        let tiled = Tiled::new(&self.mlp);
-        let offsets = list.offsets();
-        let mut answered = Answered {
-            transmittance: vec![0.0; list.len()],
-            classes: vec![Class::Network; list.len()],
-            tally: Tally::default(),
-        };
-        let mut first = 0;
-        while first < list.pixels() {
-            let end = offsets
-                .partition_point(|&o| o < offsets[first] + RUN)
-                .clamp(first + 1, list.pixels());
-            let fragments = offsets[first] as usize..offsets[end] as usize;
-            let (out, classes) = (
-                &mut answered.transmittance[fragments.clone()],
-                &mut answered.classes[fragments.clone()],
-            );
-            let tally = match passes {
-                Some(passes) => passes.run(
-                    list,
-                    first..end,
-                    self.switches,
-                    || Tile {
-                        tiled: &tiled,
-                        work: tiled.work(),
-                    },
-                    out,
-                    classes,
-                ),
-                None => self
-                    .ask_all(list, first..end, &extractor, out, classes)
-                    .map_err(|e| self.error(e))?,
-            };
-            answered.tally.add(&tally);
-            first = end;
-            progress(fragments.end as u64);
-        }
-        Ok(answered)
-    }
-
-    /// Features that are made pixel by pixel: the network is evaluated for all fragments that they do not know, but for
-    /// pixels that hardly show.
-    fn ask_all(
-        &self,
-        list: &FragmentList,
-        pixels: std::ops::Range<usize>,
-        extractor: &Extractor,
-        out: &mut [f32],
-        classes: &mut [Class],
-    ) -> Result<Tally, crate::pixel::DepthError> {
-        let start = Instant::now();
-        let Extracted { known, mut features } = extractor.list(list, pixels.clone())?;
-        let seconds_pass_1 = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let offsets = list.offsets();
-        let width = extractor.set().width();
-        for p in pixels.clone() {
-            let own = (offsets[p] - offsets[pixels.start]) as usize..(offsets[p + 1] - offsets[pixels.start]) as usize;
-            // Both mean colours lie in [0, 1], whatever the weights: the image changes by at most 1 − e^−b_0.
-            let b0 = if self.switches.faint {
-                abuffer::total_absorbance(list.pixel(p))
-            } else {
-                f64::INFINITY
-            };
-            for i in own {
-                (out[i], classes[i]) = match known[i] {
-                    t if !t.is_nan() => (t, Class::Known),
-                    _ if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
-                    _ => (f32::NAN, Class::Network),
-                };
-            }
-        }
-        let (mut kept, mut row) = (0, 0);
-        for (i, class) in classes.iter().enumerate() {
-            if known[i].is_nan() {
-                if *class == Class::Network {
-                    features.copy_within(row * width..(row + 1) * width, kept * width);
-                    kept += 1;
-                }
-                row += 1;
-            }
-        }
-        features.truncate(kept * width);
-        let mut tally = Tally {
-            rows: kept as u64,
-            seconds_pass_1,
-            ..Tally::default()
-        };
-        let mut answers = self.mlp.predict(&features).into_iter();
-        for (out, &class) in out.iter_mut().zip(&*classes) {
-            if class == Class::Network {
-                *out = answers.next().expect("one answer a question");
-            }
-            tally.classes[class as usize] += 1;
-        }
-        tally.seconds_pass_2 = start.elapsed().as_secs_f64();
-        Ok(tally)
-    }
-}
-
-/// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
-const MIN_OPACITY: f64 = 1.0 / 512.0;
-
-/// A network as one thread asks it.
-struct Tile<'a> {
-    tiled: &'a Tiled,
-    work: Vec<Row>,
-}
-
-impl Network for Tile<'_> {
-    fn answer(&mut self, columns: &[Column], out: &mut [f32]) {
-        const { assert!(ROWS <= Tiled::ROWS) }
-        let vectors = out.len().div_ceil(LANES);
-        for (row, column) in self.work.iter_mut().zip(columns) {
-            for (lanes, values) in row.iter_mut().zip(column.chunks_exact(LANES)).take(vectors) {
-                lanes.0.copy_from_slice(values);
-            }
-        }
-        self.tiled.answer(&mut self.work, out);
+            .map_err(|e| self.error(e))?
+            .with_precision(self.precision)
+            .with_frame(self.frame);
+        infer::answers(&self.mlp, &extractor, list, self.switches, progress).map_err(|e| self.error(e))
     }
 }
 
@@ -317,14 +146,17 @@ impl Method for Neural {
         )
     }
 
-    /// b0 and the moments, the number of fragments and both ends; the wide features of [`MomentFrame::Pixel`] need a
-    /// prepass.
+    /// b0 and the moments, the number of fragments and both ends; of core sets also the single fragments, kept by atomics. Moments in the pixel's
+    /// own frame need a prepass.
     fn capabilities(&self) -> Capabilities {
         let set = self.mlp.feature_set();
         if set == FeatureSet::DeepWeightedBlended {
             return deep_weighted_blended::CAPABILITIES;
         }
         let of_sums = Capabilities::of_sums(1 + set.moments() as u32, true);
+        if let Some(core) = set.spec().core {
+            return core::capabilities(core.bits());
+        }
         if self.frame == MomentFrame::Scene {
             return of_sums;
         }
@@ -367,7 +199,8 @@ impl Accumulated for Answers<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::features::passes;
+    use crate::features::FeatureSet;
+    use crate::infer::{Class, Passes};
     use crate::model::file;
     use crate::model::mlp::tests::random_mlp;
     use crate::numeric::rng::stream;
@@ -450,8 +283,8 @@ mod tests {
     /// `exact` gives the bits of `none`, and runs the network less often; with features that know nothing too.
     #[test]
     fn exact_answers_are_those_without_skipping() {
-        let list =
-            passes::tests::pixels(&mut stream(4, 94, 0), 4000).with_planes(CameraPlanes::new(0.5, 200.0).unwrap());
+        let list = crate::infer::passes::tests::pixels(&mut stream(4, 94, 0), 4000)
+            .with_planes(CameraPlanes::new(0.5, 200.0).unwrap());
         for mlp in [recentred(&[16, 8], 1, 1.0), random_mlp(&[4], 1)] {
             let of = |skip| {
                 Neural::new(mlp.clone())
@@ -474,7 +307,7 @@ mod tests {
     /// is; and some pixel is asked after all.
     #[test]
     fn what_is_skipped_cannot_be_seen() {
-        let list = passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
+        let list = crate::infer::passes::tests::pixels(&mut stream(5, 94, 0), 20_000);
         let truth = crate::pixel::abuffer::list_transmittance(&list);
         let (mut worst, mut control, mut again) = (0.0f64, 0.0f64, 0);
         for (mlp, background) in [
@@ -492,15 +325,13 @@ mod tests {
             let (exact, visible) = (of(Skip::Exact), of(Skip::Visible));
             let classes_alone = {
                 let mut class = vec![Class::Network; list.len()];
-                let passes = Extractor::for_list(FeatureSet::Recentred, &list, None, None)
-                    .unwrap()
-                    .passes()
-                    .unwrap();
+                let extractor = Extractor::for_list(FeatureSet::Recentred, &list, None, None).unwrap();
+                let passes = Passes::of(&extractor).unwrap();
                 passes.run(
                     &list,
                     0..list.pixels(),
                     Skip::Visible.switches(),
-                    || passes::Silent,
+                    || |_: &[_], out: &mut [f32]| out.fill(f32::NAN),
                     &mut vec![0.0; list.len()],
                     &mut class,
                 );

@@ -1,7 +1,7 @@
 //! Methods by their names on the command line.
 
 use super::{
-    Method, abuffer, adaptive, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, hybrid,
+    Method, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, hybrid,
     low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural, stochastic,
     two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
 };
@@ -151,6 +151,7 @@ const ENTRIES: &[&[Entry]] = &[
     &[dual_depth_peeling::ENTRY],
     &[multi_layer_alpha::ENTRY],
     &[adaptive::ENTRY],
+    &[core::ENTRY],
     &[neural::ENTRY],
 ];
 

@@ -2,9 +2,8 @@
 
 use super::{ProfileError, Scene};
 use crate::chart::histogram::{self, Panel};
-use crate::features::passes::{Class, Silent};
 use crate::features::{Extractor, FeatureSet};
-use crate::oit::neural::Skip;
+use crate::infer::{Class, Passes, Skip};
 use crate::pixel::{FragmentList, ViewZ, absorbance, abuffer};
 use serde::Serialize;
 
@@ -264,13 +263,13 @@ pub fn facts(scene: &Scene<'_>) -> Result<Facts, ProfileError> {
         scene.context.planes,
         scene.context.depth_range,
     )?;
-    let passes = extractor.passes().expect("made for recentred features");
+    let passes = Passes::of(&extractor).expect("made for recentred features");
     let (mut out, mut class) = (vec![0.0; list.len()], vec![Class::Network; list.len()]);
     passes.run(
         list,
         0..list.pixels(),
         Skip::Visible.switches(),
-        || Silent,
+        || |_: &[_], out: &mut [f32]| out.fill(f32::NAN),
         &mut out,
         &mut class,
     );

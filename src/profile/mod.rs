@@ -12,6 +12,7 @@ pub use network::{Networked, look_into};
 pub use recommend::{Recommendation, recommend};
 
 use crate::evaluate::{EvaluateError, Image, Truth, image};
+use crate::model::simplify::SimplifyError;
 use crate::model::{self, Mlp, ShapeError};
 use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::{self, Context, MethodError};
@@ -33,6 +34,9 @@ pub enum ProfileError {
     /// What was made is no network.
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    /// Units could not be taken out of a network.
+    #[error(transparent)]
+    Simplify(#[from] SimplifyError),
     /// The network answers too little of the scene.
     #[error(
         "the network is evaluated for {rows} fragments of this scene; at least {least} are needed to {what}: take a larger image, or a scene with deeper pixels"

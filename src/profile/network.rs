@@ -112,14 +112,11 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
     let is_transmittance = set.target() == crate::features::Target::Transmittance;
     let bits_per_pixel = method.bits_per_pixel();
     let mut stored = Vec::new();
-    if matches!(
-        set,
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
-    ) {
+    if set.spec().sums.has_precisions {
         for storage in [SumPrecision::F16, SumPrecision::Unorm16] {
             let answers =
                 Neural::new(mlp.clone())
-                    .with_storage(storage)
+                    .with_precision(storage)
                     .transmittance(scene.list, scene.context, &|_| {})?;
             let errors = scene.errors(&answers)?;
             let error = errors.image_mse.unwrap_or(errors.transmittance_mse);

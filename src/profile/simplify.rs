@@ -9,7 +9,7 @@
 //! The last two change rounding. They are kept only if the f32 answers stay within 1.5 times the first network's own f32 error, against its f64 answers on the same rows.
 
 use super::ProfileError;
-use crate::model::simplify::{activity, walk};
+use crate::model::simplify::{Activity, Units, activity, walk, with_constant_features, without_units};
 use crate::model::{Dense, Mlp};
 use serde::Serialize;
 use serde_json::json;
@@ -254,6 +254,161 @@ fn merge(layers: &mut [Wide], l: usize, units: &[usize], rows_before: &[Vec<f64>
     Some(into)
 }
 
+/// A network without the units that do nothing on some rows.
+struct PrunedNetwork {
+    mlp: Mlp,
+    removed: Vec<Removed>,
+    /// Units that are left of every hidden layer, as the first network numbers them.
+    kept: Units,
+}
+
+/// Takes out units that fire on no row, and those that nothing listens to. A layer keeps its first unit where none is left.
+fn prune(mlp: &Mlp, fired: &[Vec<u64>], bounds: &[Vec<[f64; 2]>]) -> Result<PrunedNetwork, ProfileError> {
+    let mut removed = Vec::new();
+    let mut kept = Units::new();
+    for (layer, next) in mlp.layers()[1..].iter().enumerate() {
+        let is_unheard = |unit: usize| (0..next.outputs()).all(|o| next.weight(unit, o) == 0.0);
+        let (mut out, mut left): (Vec<usize>, Vec<usize>) =
+            (0..next.inputs()).partition(|&unit| fired[layer][unit] == 0 || is_unheard(unit));
+        if left.is_empty() {
+            left.push(out.remove(0));
+        }
+        removed.extend(out.into_iter().map(|unit| Removed {
+            layer,
+            unit,
+            in_all_of_the_box: bounds[layer][unit][1] <= 0.0,
+            unheard: is_unheard(unit),
+        }));
+        kept.push(left);
+    }
+    let mut units = vec![Vec::new(); kept.len()];
+    removed.iter().for_each(|r| units[r.layer].push(r.unit));
+    Ok(PrunedNetwork {
+        mlp: without_units(mlp, &units)?,
+        removed,
+        kept,
+    })
+}
+
+/// Least and greatest value of every feature over rows.
+fn box_of(rows: &[f32], width: usize) -> Vec<[f32; 2]> {
+    let range = |c: usize| {
+        let column = rows.iter().skip(c).step_by(width);
+        column.fold([f32::INFINITY, f32::NEG_INFINITY], |[lo, hi], &x| {
+            [lo.min(x), hi.max(x)]
+        })
+    };
+    (0..width).map(range).collect()
+}
+
+/// Features of which the box is a single value.
+fn constants_of(box_of_rows: &[[f32; 2]], names: &[&'static str]) -> Vec<Constant> {
+    let columns = box_of_rows.iter().zip(names).enumerate();
+    columns
+        .filter(|(_, ([lo, hi], _))| lo == hi)
+        .map(|(column, (&[value, _], &name))| Constant { column, name, value })
+        .collect()
+}
+
+/// Merges what always fires, layer by layer.
+fn merge_all(
+    mlp: &Mlp,
+    pruned: &PrunedNetwork,
+    activity: &Activity,
+    rows: &[f32],
+) -> Result<(Mlp, Vec<Merged>), ProfileError> {
+    let mut layers: Vec<Wide> = mlp.layers().iter().map(Wide::of).collect();
+    let mut merged = Vec::new();
+    for (l, kept) in pruned.kept.iter().enumerate() {
+        let fires_always = |&at: &usize| activity.fired[l][kept[at]] == activity.rows;
+        let always: Vec<usize> = (0..kept.len()).filter(fires_always).collect();
+        // A layer behind one that was merged reads something else.
+        if layers[l].inputs != mlp.layers()[l].inputs() {
+            continue;
+        }
+        if let Some(into) = merge(&mut layers, l, &always, &inputs_of(mlp, rows, l)) {
+            merged.push(Merged {
+                layer: l,
+                units: always.iter().map(|&at| kept[at]).collect(),
+                into,
+            });
+        }
+    }
+    Ok((made(mlp, &layers)?, merged))
+}
+
+/// A simplified network, and what was done to it besides pruning.
+struct Candidate {
+    mlp: Mlp,
+    merged: Vec<Merged>,
+    constants: Vec<Constant>,
+    rounding: Rounding,
+}
+
+/// The first of folding and merging, merging, and folding that leaves rounding as it must be; the pruned network where none does.
+fn fold_and_merge(
+    pruned: &PrunedNetwork,
+    constants: &[Constant],
+    activity: &Activity,
+    rows: &[f32],
+    exact: &[f64],
+    allowed: impl Fn(&Rounding) -> bool,
+) -> Result<Candidate, ProfileError> {
+    let values: Vec<(usize, f32)> = constants.iter().map(|c| (c.column, c.value)).collect();
+    for (folding, merging) in [(true, true), (false, true), (true, false)] {
+        let folded: &[Constant] = if folding { constants } else { &[] };
+        let base = if folding {
+            with_constant_features(&pruned.mlp, &values)?
+        } else {
+            pruned.mlp.clone()
+        };
+        let (mlp, merged) = if merging {
+            merge_all(&base, pruned, activity, rows)?
+        } else {
+            (base, Vec::new())
+        };
+        if folded.is_empty() && merged.is_empty() {
+            continue;
+        }
+        let rounding = rounding(&mlp, exact, rows);
+        if allowed(&rounding) {
+            return Ok(Candidate {
+                mlp,
+                merged,
+                constants: folded.to_vec(),
+                rounding,
+            });
+        }
+    }
+    Ok(Candidate {
+        mlp: pruned.mlp.clone(),
+        merged: Vec::new(),
+        constants: Vec::new(),
+        rounding: rounding(&pruned.mlp, exact, rows),
+    })
+}
+
+/// Where a simplified network answers as the first one, in words.
+fn region(count: usize, removed: &[Removed], candidate: &Candidate) -> String {
+    let observed = removed.iter().filter(|r| !r.in_all_of_the_box && !r.unheard).count();
+    let merged = if candidate.merged.is_empty() {
+        ""
+    } else {
+        ", all of the merged ones do"
+    };
+    let constants = if candidate.constants.is_empty() {
+        ""
+    } else {
+        ", and the constant features have their value"
+    };
+    format!(
+        "exact on the {count} rows of features that it was made for, and on every row on which none of the removed \
+         units fires{merged}{constants}; of these {} cannot in the whole box around the rows, {observed} were silent \
+         on the rows alone",
+        removed.len() - observed,
+    )
+}
+
 /// Simplifies a network for rows of features.
 ///
 /// # Shapes
@@ -263,8 +418,7 @@ fn merge(layers: &mut [Wide], l: usize, units: &[usize], rows_before: &[Vec<f64>
 /// [`ProfileError::TooFew`] where there is no row; [`ProfileError::Shape`] where a merged weight overflows.
 pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
     let set = mlp.feature_set();
-    let width = set.width();
-    let count = rows.len() / width;
+    let count = rows.len() / set.width();
     if count == 0 {
         return Err(ProfileError::TooFew {
             rows: 0,
@@ -272,167 +426,42 @@ pub fn simplify(mlp: &Mlp, rows: &[f32]) -> Result<Simplified, ProfileError> {
             what: "say what the network does not need",
         });
     }
-    let box_of_rows: Vec<[f32; 2]> = (0..width)
-        .map(|c| {
-            rows.iter()
-                .skip(c)
-                .step_by(width)
-                .fold([f32::INFINITY, f32::NEG_INFINITY], |[lo, hi], &x| {
-                    [lo.min(x), hi.max(x)]
-                })
-        })
-        .collect();
-    let fired = activity(mlp, rows).fired;
-    let bounds = intervals(mlp, &box_of_rows);
-    let hidden = mlp.layers().len() - 1;
-
-    // Silent and unheard units.
-    let mut removed = Vec::new();
-    let mut kept: Vec<Vec<usize>> = vec![(0..width).collect()];
-    for l in 0..hidden {
-        let next = &mlp.layers()[l + 1];
-        let mut left = Vec::new();
-        for unit in 0..mlp.layers()[l].outputs() {
-            let unheard = (0..next.outputs()).all(|o| next.weight(unit, o) == 0.0);
-            if fired[l][unit] == 0 || unheard {
-                removed.push(Removed {
-                    layer: l,
-                    unit,
-                    in_all_of_the_box: bounds[l][unit][1] <= 0.0,
-                    unheard,
-                });
-            } else {
-                left.push(unit);
-            }
-        }
-        // A layer cannot be empty: its first unit stays.
-        if left.is_empty() {
-            removed.retain(|r| (r.layer, r.unit) != (l, 0));
-            left.push(0);
-        }
-        kept.push(left);
-    }
-    kept.push(vec![0]);
-    let layers: Vec<Wide> = mlp
-        .layers()
-        .iter()
-        .enumerate()
-        .map(|(l, dense)| Wide::of(dense).only(&kept[l], &kept[l + 1]))
-        .collect();
-    let pruned = made(mlp, &layers)?;
-    let bits32 = |m: &Mlp| {
-        m.forward_batch::<f32>(rows)
-            .iter()
-            .map(|t| t.to_bits())
-            .collect::<Vec<_>>()
-    };
+    let box_of_rows = box_of(rows, set.width());
+    let activity = activity(mlp, rows);
+    let pruned = prune(mlp, &activity.fired, &intervals(mlp, &box_of_rows))?;
     let exact = mlp.forward_batch::<f64>(rows);
-    let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
-    let identical_bits = bits32(mlp) == bits32(&pruned) && same(&exact, &pruned.forward_batch::<f64>(rows));
-    let rounding_before = rounding(mlp, &exact, rows);
-    let allowed =
-        |r: &Rounding| r.rms <= MAX_ERROR * rounding_before.rms && r.worst <= MAX_ERROR * rounding_before.worst;
-
-    // Constant features, then units that always fire; each is kept if rounding allows.
-    let constants: Vec<Constant> = (0..width)
-        .filter(|&c| box_of_rows[c][0] == box_of_rows[c][1])
-        .map(|column| Constant {
-            column,
-            name: set.columns()[column],
-            value: box_of_rows[column][0],
-        })
-        .collect();
-    let fold = |layers: &mut Vec<Wide>| {
-        for c in &constants {
-            let first = &mut layers[0];
-            for o in 0..first.outputs {
-                first.biases[o] += first.weight(c.column, o) * f64::from(c.value);
-                first.weights[c.column * first.outputs + o] = 0.0;
-            }
-        }
-    };
-    let merge_all = |layers: &mut Vec<Wide>| -> Vec<Merged> {
-        let mut merged = Vec::new();
-        for l in 0..hidden {
-            let always: Vec<usize> = (0..kept[l + 1].len())
-                .filter(|&at| fired[l][kept[l + 1][at]] == count as u64)
-                .collect();
-            // A layer behind one that was merged reads something else.
-            if layers[l].inputs != pruned.layers()[l].inputs() {
-                continue;
-            }
-            let read = inputs_of(&pruned, rows, l);
-            if let Some(into) = merge(layers, l, &always, &read) {
-                merged.push(Merged {
-                    layer: l,
-                    units: always.iter().map(|&at| kept[l + 1][at]).collect(),
-                    into,
-                });
-            }
-        }
-        merged
-    };
-    let mut best = (pruned.clone(), Vec::new(), Vec::new(), rounding(&pruned, &exact, rows));
-    for (folding, merging) in [(true, true), (false, true), (true, false)] {
-        let mut tried = layers.clone();
-        if folding {
-            fold(&mut tried);
-        }
-        let merged = if merging { merge_all(&mut tried) } else { Vec::new() };
-        if (folding && !constants.is_empty()) || !merged.is_empty() {
-            let candidate = made(mlp, &tried)?;
-            let off = rounding(&candidate, &exact, rows);
-            if allowed(&off) {
-                best = (
-                    candidate,
-                    merged,
-                    if folding { constants.clone() } else { Vec::new() },
-                    off,
-                );
-                break;
-            }
-        }
-    }
-    let (mut left, merged, constants, rounding) = best;
-    let observed = removed.iter().filter(|r| !r.in_all_of_the_box && !r.unheard).count();
-    let region = format!(
-        "exact on the {count} rows of features that it was made for, and on every row on which none of the removed units fires{}{}; of these {} cannot in the whole box around the rows, {observed} were \
-         silent on the rows alone",
-        if merged.is_empty() {
-            String::new()
-        } else {
-            ", all of the merged ones do".to_owned()
-        },
-        if constants.is_empty() {
-            String::new()
-        } else {
-            ", and the constant features have their value".to_owned()
-        },
-        removed.len() - observed,
-    );
-    let not_zero = left
-        .layers()
-        .iter()
-        .flat_map(|l| &l.weights)
-        .filter(|w| **w != 0.0)
-        .count() as u64;
+    let same_bits = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+    let identical_bits = exact.iter().zip(&pruned.mlp.forward_batch::<f64>(rows)).all(same_bits)
+        && bits(&mlp.forward_batch::<f32>(rows)) == bits(&pruned.mlp.forward_batch::<f32>(rows));
+    let before = rounding(mlp, &exact, rows);
+    let allowed = |r: &Rounding| r.rms <= MAX_ERROR * before.rms && r.worst <= MAX_ERROR * before.worst;
+    let constants = constants_of(&box_of_rows, set.columns());
+    let mut candidate = fold_and_merge(&pruned, &constants, &activity, rows, &exact, allowed)?;
+    let weights = candidate.mlp.layers().iter().flat_map(|l| &l.weights);
     let report = Report {
         rows: count as u64,
         multiply_adds_before: mlp.multiply_adds() as u64,
-        multiply_adds: left.multiply_adds() as u64,
-        multiply_adds_not_zero: not_zero,
-        removed,
-        merged,
-        constants,
+        multiply_adds: candidate.mlp.multiply_adds() as u64,
+        multiply_adds_not_zero: weights.filter(|w| **w != 0.0).count() as u64,
+        region: region(count, &pruned.removed, &candidate),
+        removed: pruned.removed,
+        merged: candidate.merged,
+        constants: candidate.constants,
         identical_bits,
-        rounding_before,
-        rounding,
+        rounding_before: before,
+        rounding: candidate.rounding,
         box_of_rows,
-        region,
     };
-    left.provenance.derived =
+    candidate.mlp.provenance.derived =
         Some(json!({ "how": "simplified", "from": mlp.name(), "from_network": mlp.shape(), "report": report }));
-    Ok(Simplified { mlp: left, report })
+    Ok(Simplified {
+        mlp: candidate.mlp,
+        report,
+    })
+}
+
+fn bits(answers: &[f32]) -> Vec<u32> {
+    answers.iter().map(|t| t.to_bits()).collect()
 }
 
 /// What layer `l` reads on every row, in f64 of the f32 values.

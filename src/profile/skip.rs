@@ -2,9 +2,10 @@
 
 use super::{ProfileError, Scene};
 use crate::evaluate::flip;
-use crate::features::passes::{Switches, Tally};
+use crate::infer::Skip;
+use crate::infer::{Switches, Tally};
 use crate::model::Mlp;
-use crate::oit::neural::{Neural, Skip};
+use crate::oit::neural::Neural;
 use serde::Serialize;
 
 /// One way of skipping, measured.

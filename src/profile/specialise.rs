@@ -134,7 +134,7 @@ impl<'a> Task<'a> {
         let list = scene.list;
         let extractor = Extractor::for_list(mlp.feature_set(), list, scene.context.planes, scene.context.depth_range)?;
         let extracted = extractor.list(list, 0..list.pixels())?;
-        let evaluated = (0..list.len()).filter(|&i| extracted.known[i].is_nan()).collect();
+        let evaluated = (0..list.len()).filter(|&i| extracted.known[i].is_none()).collect();
         // Tiles of an image; of another list runs of as many pixels.
         let width = list.size().map_or(list.pixels(), |s| s.0 as usize).max(1);
         let tile_of = |p: usize| {
@@ -151,7 +151,7 @@ impl<'a> Task<'a> {
         let held_out = (0..list.pixels()).into_par_iter().map(out).collect();
         Ok(Self {
             scene,
-            base: extracted.known,
+            base: extracted.known.into_iter().map(Option::unwrap_or_default).collect(),
             evaluated,
             features: extracted.features,
             held_out,

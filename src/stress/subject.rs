@@ -154,10 +154,7 @@ fn checked(answers: Answers, fragments: &Fragments) -> Answers {
 }
 
 fn is_recentred(set: FeatureSet) -> bool {
-    matches!(
-        set,
-        FeatureSet::Recentred | FeatureSet::Recentred6 | FeatureSet::Recentred8
-    )
+    set.spec().sums.has_precisions
 }
 
 fn run_method(method: &dyn Method, fragments: &Fragments) -> Answers {
@@ -336,7 +333,7 @@ impl Execution {
             Arithmetic::Usual => {
                 let list = fragments.list().map_err(|e| e.to_string())?;
                 let method = Neural::new(mlp.clone())
-                    .with_storage(self.storage)
+                    .with_precision(self.storage)
                     .with_frame(self.frame);
                 let answers = method
                     .transmittance(&list, fragments.context, &|_| {})
@@ -525,7 +522,7 @@ fn as_shader<R: Scalar>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) ->
             MomentFrame::Scene => [whole.0, whole.1],
             MomentFrame::Pixel => [nearest, farthest],
         };
-        let z = |v: f32| recentred::moment_depth::<R>(v, range);
+        let z = |v: f32| recentred::moment_depth(R::from_f32(v), range.map(R::from_f32));
         answer_pixel::<R>(
             mlp,
             pixel,

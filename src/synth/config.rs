@@ -195,6 +195,15 @@ pub enum AlphaLaw {
         /// Greatest, in [0, 1].
         max: f64,
     },
+    /// Gaussian splats: each object draws a peak opacity, log-uniform, and a fragment of it is seen somewhere on the
+    /// Gaussian's footprint down to where it has fallen to min: log-uniform in [min, peak]. Clusters are objects; under
+    /// the other depth laws each fragment is one.
+    Splats {
+        /// Opacity at which a splat is cut off, in (0, 1].
+        min: f64,
+        /// Peak opacities, at least min.
+        peak: Range,
+    },
     /// Some fragments nearly opaque, uniform in [0.9, 1], the others faint, uniform in [0, low].
     NearOpaque {
         /// A fragment's probability of being nearly opaque, uniform, drawn once a pixel, in [0, 1].
@@ -365,6 +374,10 @@ impl AlphaLaw {
         match *self {
             Self::Uniform { min, max, reading: _ } | Self::Subrange { min, max } => unit(at, Range { min, max }),
             Self::LogUniform { min, max, reading: _ } => above_zero(at, Range { min, max }),
+            Self::Splats { min, peak } => {
+                above_zero(&format!("{at}.peak"), peak)?;
+                above_zero(at, Range { min, max: peak.min })
+            }
             Self::NearOpaque { share, low } => {
                 unit(&format!("{at}.share"), share)?;
                 above_zero(&format!("{at}.low"), low)

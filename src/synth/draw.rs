@@ -353,6 +353,7 @@ enum Alpha {
     Uniform(UniformInclusive, AlphaReading),
     LogUniform(LogUniform, AlphaReading),
     Subrange(Range),
+    Splats { min: f64, peak: LogUniform },
     NearOpaque { share: Range, low: LogUniform },
 }
 
@@ -657,6 +658,10 @@ impl Alpha {
                 Self::LogUniform(LogUniform::new(Range { min, max }), reading)
             }
             AlphaLaw::Subrange { min, max } => Self::Subrange(Range { min, max }),
+            AlphaLaw::Splats { min, peak } => Self::Splats {
+                min,
+                peak: LogUniform::new(peak),
+            },
             AlphaLaw::NearOpaque { share, low } => Self::NearOpaque {
                 share,
                 low: LogUniform::new(low),
@@ -686,6 +691,24 @@ impl Alpha {
                 });
                 fill(rng, n, units);
                 out.extend(units.iter().map(|&u| law.at(u) as f32));
+            }
+            Self::Splats { min, peak } => {
+                let Scratch {
+                    units,
+                    object,
+                    object_alpha,
+                    ..
+                } = scratch;
+                object_alpha.clear();
+                fill(rng, n, units);
+                out.extend(object.iter().zip(units.iter()).map(|(&o, &u)| {
+                    let o = o as usize;
+                    while object_alpha.len() <= o {
+                        object_alpha.push(peak.draw(rng) as f32);
+                    }
+                    let peak = f64::from(object_alpha[o]);
+                    opacity(peak * libm::exp(u * libm::log(min / peak)))
+                }));
             }
             Self::NearOpaque { share, low } => {
                 let (share, low) = (UniformLerp(*share).draw(rng), low.draw(rng));
@@ -1219,6 +1242,16 @@ mod tests {
             .collect();
         // The two ends are 0.6/3 apart on average; the extremes of 100 draws reach 99/101 of that.
         assert!(has_mean(&extents, |e| e, 0.2 * 99.0 / 101.0));
+
+        // A splat's opacities lie between where it is cut off and its peak, uniform in their logarithm.
+        let splats = AlphaLaw::Splats {
+            min: 0.004,
+            peak: range(0.5, 0.5),
+        };
+        let pixels = alphas(splats, 100, 4000);
+        assert!(pixels.iter().flatten().all(|a| (0.00399..=0.50001).contains(a)));
+        let logarithms: Vec<f64> = pixels.iter().map(|a| libm::log(a[0].into())).collect();
+        assert!(has_mean(&logarithms, |l| l, 0.5 * libm::log(0.004 * 0.5)));
 
         let (share, low) = (range(0.1, 0.5), range(0.01, 0.3));
         let pixels = alphas(AlphaLaw::NearOpaque { share, low }, 200, 4000);

@@ -7,7 +7,7 @@ use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::{Batch, Blocks};
 use crate::features::{Answer, FeatureSet};
-use crate::model::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden, hidden_layers, logit, wide};
+use crate::model::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden, hidden_layers, logit, shipped_sizes, wide};
 use crate::numeric::lanes::{Lanes, exp, sigmoid};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
@@ -300,35 +300,37 @@ fn chunk<S: Simd>(
     }
 }
 
-/// The kernel for networks whose sizes are known at compile time, and the one for all others.
-macro_rules! kernels {
-    ($($name:ident: $inputs:literal, $h1:literal, $h2:literal;)*) => {
-        $(
-            #[inline(never)]
-            fn $name(level: Level, _: &[usize], p: &[f32], answer: Answer, batch: Batch<'_>, work: &mut Workspace, scale: f32) {
-                dispatch!(level, simd => chunk(simd, batch, work, #[inline(always)] |batch, work| {
-                    tile_of_two(simd, $inputs, $h1, $h2, p, answer, batch, work, scale)
-                }));
-            }
-        )*
+/// Gradient of a chunk: level, sizes, parameters, answer, batch, workspace, scale of the derivatives.
+type Kernel = fn(Level, &[usize], &[f32], Answer, Batch<'_>, &mut Workspace, f32);
 
-        /// The fastest kernel for layers of these sizes.
-        fn kernel_for(sizes: &[usize]) -> Kernel {
-            match sizes {
-                $([$inputs, $h1, $h2] => $name,)*
-                _ => any,
-            }
+/// The kernel for networks whose sizes are known at compile time.
+#[inline(never)]
+fn fixed<const INPUTS: usize, const H1: usize, const H2: usize>(
+    level: Level,
+    _: &[usize],
+    p: &[f32],
+    answer: Answer,
+    batch: Batch<'_>,
+    work: &mut Workspace,
+    scale: f32,
+) {
+    dispatch!(level, simd => chunk(simd, batch, work, #[inline(always)] |batch, work| {
+        tile_of_two(simd, INPUTS, H1, H2, p, answer, batch, work, scale)
+    }));
+}
+
+macro_rules! kernel_for {
+    (@ [$([$inputs:literal, $h1:literal, $h2:literal])*] $sizes:expr) => {
+        match $sizes {
+            $([$inputs, $h1, $h2] => fixed::<$inputs, $h1, $h2>,)*
+            _ => any,
         }
     };
 }
 
-/// Gradient of a chunk: level, sizes, parameters, answer, batch, workspace, scale of the derivatives.
-type Kernel = fn(Level, &[usize], &[f32], Answer, Batch<'_>, &mut Workspace, f32);
-
-kernels! {
-    kernel_7_32_16: 7, 32, 16;
-    kernel_9_32_16: 9, 32, 16;
-    kernel_7_16_8: 7, 16, 8;
+/// The fastest kernel for layers of these sizes.
+fn kernel_for(sizes: &[usize]) -> Kernel {
+    shipped_sizes!(kernel_for, sizes)
 }
 
 #[inline(never)]

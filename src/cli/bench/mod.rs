@@ -6,8 +6,8 @@ mod methods;
 mod tiles;
 mod train;
 
-use super::Verdict;
 use super::ui::{Progress, Ui, report, table};
+use super::{Verdict, examples};
 use crate::bench::{Measurement, Network, Plan, Summary, comparison};
 use crate::features::FeatureSet;
 use crate::numeric::file::{Replace, may_write, write_atomically};
@@ -25,14 +25,19 @@ pub struct Bench {
 #[derive(Subcommand)]
 enum What {
     /// Samples a second of every training backend.
+    #[command(after_help = examples::BENCH_TRAIN)]
     Train(train::BenchTrain),
     /// Pairs of features and answer a second, from random pixels.
+    #[command(after_help = examples::BENCH_GENERATE)]
     Generate(generate::BenchGenerate),
     /// Rows a second that a network answers, against the reference and onnxruntime.
+    #[command(after_help = examples::BENCH_INFER)]
     Infer(infer::BenchInfer),
     /// Time of transparency methods and networks on a fragment list against their error, on the CPU and the GPU.
+    #[command(after_help = examples::BENCH_METHODS)]
     Methods(methods::BenchMethods),
     /// Time of a frame on the GPU: drawn, in compute passes, and with the network only for the fragments that need it or can be seen.
+    #[command(after_help = examples::BENCH_TILES)]
     Tiles(tiles::BenchTiles),
 }
 

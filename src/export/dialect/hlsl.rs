@@ -2,7 +2,8 @@
 
 use crate::numeric::source::{Dialect, Type};
 
-/// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, `out float result[n]`.
+/// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, `out float
+/// result[n]`.
 #[derive(Debug, Clone, Copy)]
 pub struct Hlsl;
 

@@ -233,7 +233,7 @@ impl Codes {
     /// Moment depth that a depth step stands for, within (−1, 1).
     #[inline(always)]
     pub fn moment_depth(&self, depth_step: u32) -> f32 {
-        (2 * depth_step + 1) as f32 / (1u32 << self.depth_bits) as f32 - 1.0
+        (2 * depth_step + 1) as f32 * (1.0 / (1u32 << self.depth_bits) as f32) - 1.0
     }
 
     /// Absorbance that an absorbance step stands for.
@@ -307,12 +307,19 @@ impl Codes {
         if fragment.absorbance_step == 0 {
             return Some(fragment);
         }
-        for (place, kept) in slots.iter_mut().enumerate() {
+        let last = slots.len().checked_sub(1).filter(|&last| last >= 2);
+        for place in 0..slots.len() {
             let slot = Slot::at(place);
             let code = self.encode(slot, fragment);
-            let old = *kept;
-            *kept = old.max(code);
-            fragment = self.decode(slot, old.min(code))?;
+            // The heavy slots hold K codes no less.
+            if place == 2 && last.is_some_and(|last| code <= slots[last]) {
+                return Some(fragment);
+            }
+            let old = slots[place];
+            if code > old {
+                slots[place] = code;
+                fragment = self.decode(slot, old)?;
+            }
         }
         Some(fragment)
     }

@@ -48,7 +48,7 @@ fn train_export_check_predict() {
         .as_array()
         .unwrap()
         .iter()
-        .find(|r| r["tool"] == "rten")
+        .find(|r| r["tool"] == "interpreter")
         .unwrap();
     assert_eq!(
         (numbers["status"].as_str(), numbers["numbers"][0]["count"].as_u64()),

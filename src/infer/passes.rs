@@ -1,195 +1,28 @@
-//! Both passes over many pixels, sixteen fragments at once: what [`Extractor::pixel`](super::Extractor::pixel) says of one, made fast, with a network in the middle.
+//! Both passes over many pixels, sixteen fragments at once: what [`Extractor::pixel`] says of one, made fast, with a
+//! network in the middle.
 //!
-//! Pass 2 first sorts fragments into classes with little arithmetic. What is known leaves its optical depth; what a closed form or the network must answer waits in
-//! a queue until sixteen wait, of whatever pixels, and goes through its arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not
-//! on its company, and to leave out the network where its answer is not used changes no bit of the rest.
+//! Pass 2 first sorts fragments into classes with little arithmetic. What is known leaves its optical depth; what a
+//! closed form or the network must answer waits in a queue until sixteen wait, of whatever pixels, and goes through its
+//! arithmetic in lanes. So every fragment's answer depends on that fragment and the sums of its pixel alone, not on its
+//! company, and to leave out the network where its answer is not used changes no bit of the rest.
 
-use super::recentred::{FragmentTerms, MIN_HALF_RANGE, PixelSums, is_thin, place_in_thin};
-use super::visible::{FAINT, MIN_WEIGHT, first_hidden_depth};
-use super::wide::{Fragments, moment_depth};
-use super::{Extractor, Kind, MomentFrame, SumPrecision};
+use super::classes::{Class, Switches, Tally};
+use super::queue::{Queue, Summed};
+use crate::features::recentred::formulas::{ALONE, half_range, is_thin, moment_depth};
+use crate::features::recentred::{FragmentTerms, PixelSums};
+use crate::features::visible::{FAINT, MIN_WEIGHT, first_hidden_depth};
+use crate::features::{Extractor, MomentFrame, SumPrecision};
 use crate::numeric::lanes::{LANES, Lanes, exp};
 use crate::pixel::{FragmentList, LogWarp, absorbance_lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16, mask32x16};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
-
-/// Which fragments the network is spared. Those that are known stay known: a switch that is off only runs the network for them too.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Switches {
-    /// Nearest, farthest, and those with nothing else in their pixel.
-    pub ends: bool,
-    /// Pixels of three and four in closed form.
-    pub short: bool,
-    /// Pixels that absorb next to nothing; see [`visible`](super::visible).
-    pub faint: bool,
-    /// What lies behind so much that it is not seen; see [`visible`](super::visible).
-    pub hidden: bool,
-}
-
-/// What decides a fragment's answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[repr(u8)]
-pub enum Class {
-    /// Nearest of its pixel: T = 1.
-    Nearest,
-    /// The others absorb nothing: T = 1.
-    Alone,
-    /// Farthest of its pixel: T = e^−b_0'.
-    Farthest,
-    /// One of three: closed form.
-    Three,
-    /// One of four: closed form.
-    Four,
-    /// Known without the network, which rule said so not being told apart.
-    Known,
-    /// Of a faint pixel: e^(−b_0'/2).
-    Faint,
-    /// Hidden: e^−b_0'.
-    Hidden,
-    /// The network.
-    Network,
-}
-
-impl Class {
-    /// Every class.
-    pub const ALL: [Self; 9] = [
-        Self::Nearest,
-        Self::Alone,
-        Self::Farthest,
-        Self::Three,
-        Self::Four,
-        Self::Known,
-        Self::Faint,
-        Self::Hidden,
-        Self::Network,
-    ];
-
-    /// Its name in tables and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Nearest => "nearest",
-            Self::Alone => "alone",
-            Self::Farthest => "farthest",
-            Self::Three => "three",
-            Self::Four => "four",
-            Self::Known => "known",
-            Self::Faint => "faint",
-            Self::Hidden => "hidden",
-            Self::Network => "network",
-        }
-    }
-}
 
 /// Rows of features that wait for the network, column by column.
 pub type Column = [f32; ROWS];
 
 /// Rows that the network is evaluated for at once.
 pub const ROWS: usize = 256;
-
-/// Answers rows.
-pub trait Network {
-    /// Answers to the first `out.len()` rows.
-    fn answer(&mut self, columns: &[Column], out: &mut [f32]);
-}
-
-/// No network: its answers are NaN.
-pub struct Silent;
-
-impl Network for Silent {
-    fn answer(&mut self, _: &[Column], out: &mut [f32]) {
-        out.fill(f32::NAN);
-    }
-}
-
-/// A pixel with fragments after pass 1, with what each of them needs in pass 2.
-#[derive(Debug, Clone, Copy)]
-struct Summed<const K: usize> {
-    sums: PixelSums<f32, K>,
-    c: f32,
-    h: f32,
-    /// Whether places in its range are those of view depth.
-    thin: bool,
-    /// Its first fragment, counted within the task.
-    first: u32,
-}
-
-/// Vectors of fragments that wait together, so that what was written last has reached the cache before it is read.
-const VECTORS: usize = 4;
-
-/// Fragments that wait: z, A, b_0, n, c, h, place in a thin pixel, then b_1..b_K.
-struct Queue<const K: usize> {
-    fixed: [[Lanes; VECTORS]; 7],
-    b: [[Lanes; VECTORS]; K],
-    /// The fragment, or [`DROPPED`] where it is known already: the network is run, its answer dropped.
-    fragment: [u32; VECTORS * LANES],
-    /// Its pixel among those of the task.
-    pixel: [u32; VECTORS * LANES],
-    len: usize,
-}
-
-impl<const K: usize> Queue<K> {
-    fn new() -> Self {
-        let (fragment, pixel) = ([0; VECTORS * LANES], [0; VECTORS * LANES]);
-        Self {
-            fixed: [[Lanes([1.0; LANES]); VECTORS]; 7],
-            b: [[Lanes::ZERO; VECTORS]; K],
-            fragment,
-            pixel,
-            len: 0,
-        }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, view_z: f32, z: f32, absorbance: f32, of: &Summed<K>, fragment: u32, pixel: usize) {
-        let (vector, lane) = (self.len / LANES, self.len % LANES);
-        let place = if of.thin {
-            place_in_thin(view_z, of.sums.nearest, of.sums.farthest)
-        } else {
-            2.0
-        };
-        for (lanes, value) in
-            self.fixed
-                .iter_mut()
-                .zip([z, absorbance, of.sums.b0, of.sums.count as f32, of.c, of.h, place])
-        {
-            lanes[vector].0[lane] = value;
-        }
-        for (lanes, value) in self.b.iter_mut().zip(of.sums.b) {
-            lanes[vector].0[lane] = value;
-        }
-        self.fragment[self.len] = fragment;
-        self.pixel[self.len] = pixel as u32;
-        self.len += 1;
-    }
-
-    fn is_full(&self) -> bool {
-        self.len == VECTORS * LANES
-    }
-
-    #[inline(always)]
-    fn load<S: Simd>(&self, simd: S, v: usize) -> Fragments<S, K> {
-        let [z, absorbance, b0, count, c, h, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
-        Fragments {
-            z,
-            absorbance,
-            b0,
-            b: std::array::from_fn(|k| self.b[k][v].load(simd)),
-            count,
-            c,
-            h,
-            place,
-        }
-    }
-
-    /// Empties it: first fragments and number of each vector of what stood there.
-    fn take(&mut self) -> impl Iterator<Item = (usize, usize)> + use<K> {
-        let len = std::mem::take(&mut self.len);
-        (0..len).step_by(LANES).map(move |at| (at, (len - at).min(LANES)))
-    }
-}
 
 /// What one thread works in.
 struct Workspace<const K: usize> {
@@ -198,7 +31,7 @@ struct Workspace<const K: usize> {
     /// Fragments that a closed form answers.
     short: Queue<K>,
     /// Fragments that the network will answer, and those that may be hidden.
-    evaluated: [Queue<K>; 2],
+    waiting: [Queue<K>; 2],
     columns: Vec<Column>,
     /// The fragment of each row, or [`DROPPED`].
     who: Vec<u32>,
@@ -208,7 +41,7 @@ struct Workspace<const K: usize> {
     rows: u64,
 }
 
-const DROPPED: u32 = u32::MAX;
+pub(super) const DROPPED: u32 = u32::MAX;
 
 /// Pixels that one thread takes at once, and their fragments.
 struct Task<'a, const K: usize> {
@@ -224,46 +57,13 @@ struct Task<'a, const K: usize> {
     class: &'a mut [Class],
 }
 
-/// What pass 2 did, and how long it took.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Tally {
-    /// Fragments of every class, in the order of [`Class::ALL`].
-    pub classes: [u64; Class::ALL.len()],
-    /// Rows that the network was run for.
-    pub rows: u64,
-    /// Time of pass 1 \[s\].
-    pub seconds_pass_1: f64,
-    /// Time of pass 2 \[s\].
-    pub seconds_pass_2: f64,
-}
-
-impl Tally {
-    /// Fragments of a class.
-    pub fn of(&self, class: Class) -> u64 {
-        self.classes[class as usize]
-    }
-
-    /// All fragments.
-    pub fn fragments(&self) -> u64 {
-        self.classes.iter().sum()
-    }
-
-    /// Adds what was done elsewhere.
-    pub fn add(&mut self, other: &Self) {
-        self.classes.iter_mut().zip(other.classes).for_each(|(a, b)| *a += b);
-        self.rows += other.rows;
-        self.seconds_pass_1 += other.seconds_pass_1;
-        self.seconds_pass_2 += other.seconds_pass_2;
-    }
-}
-
 impl<const K: usize> Workspace<K> {
     fn new(switches: Switches, columns: usize) -> Self {
         Self {
             level: Level::new(),
             switches,
             short: Queue::new(),
-            evaluated: [Queue::new(), Queue::new()],
+            waiting: [Queue::new(), Queue::new()],
             columns: vec![[0.0; ROWS]; columns],
             who: Vec::with_capacity(ROWS),
             hiding: Vec::new(),
@@ -272,13 +72,13 @@ impl<const K: usize> Workspace<K> {
     }
 
     /// The closed forms of what waits for them.
-    fn flush_short(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    fn flush_short(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         for (at, len) in self.short.take() {
             let mut depth = Lanes::ZERO;
             let short = &self.short;
             dispatch!(self.level, simd => {
                 let fragments = short.load(simd, at / LANES);
-                depth.store(fragments.closed_form(simd, &fragments.describe(simd)));
+                depth.store(fragments.closed_form());
             });
             for (lane, &depth) in depth.0[..len].iter().enumerate() {
                 let (fragment, pixel) = (
@@ -295,19 +95,19 @@ impl<const K: usize> Workspace<K> {
         }
     }
 
-    /// The network, unless the fragment is hidden; only deep ones may be.
+    /// Puts a fragment into the queue of the network, or of those that may be hidden if it lies deep enough.
     #[inline(always)]
-    fn ask(
+    fn enqueue(
         &mut self,
         task: &mut Task<'_, K>,
-        network: &mut impl Network,
+        network: &mut impl FnMut(&[Column], &mut [f32]),
         of: &Summed<K>,
         fragment: usize,
         pixel: usize,
         deep: bool,
     ) {
-        // No branch, which nobody could predict.
-        let queue = &mut self.evaluated[usize::from(deep)];
+        // Branch-free: this would mispredict.
+        let queue = &mut self.waiting[usize::from(deep)];
         queue.push(
             task.view_z[fragment],
             task.z[fragment],
@@ -321,16 +121,16 @@ impl<const K: usize> Workspace<K> {
         }
     }
 
-    /// The network, whose answer is not used.
+    /// Runs the network for a fragment whose answer is known, and drops what it says.
     fn run_for_nothing(
         &mut self,
         task: &mut Task<'_, K>,
-        network: &mut impl Network,
+        network: &mut impl FnMut(&[Column], &mut [f32]),
         of: &Summed<K>,
         fragment: usize,
         pixel: usize,
     ) {
-        self.evaluated[0].push(
+        self.waiting[0].push(
             task.view_z[fragment],
             task.z[fragment],
             task.absorbance[fragment],
@@ -338,18 +138,18 @@ impl<const K: usize> Workspace<K> {
             DROPPED,
             pixel,
         );
-        if self.evaluated[0].is_full() {
+        if self.waiting[0].is_full() {
             self.flush(false, task, network);
         }
     }
 
     /// Features of what waits and, of the deep ones, is not hidden.
-    fn flush(&mut self, deep: bool, task: &mut Task<'_, K>, network: &mut impl Network) {
-        for (at, len) in self.evaluated[usize::from(deep)].take() {
-            let queue = &self.evaluated[usize::from(deep)];
+    fn flush(&mut self, deep: bool, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
+        for (at, len) in self.waiting[usize::from(deep)].take() {
+            let queue = &self.waiting[usize::from(deep)];
             let (columns, row) = (&mut self.columns, self.who.len());
             let mut hidden = 0;
-            dispatch!(self.level, simd => hidden = describe(simd, &queue.load(simd, at / LANES), deep, columns, row));
+            dispatch!(self.level, simd => hidden = queue.load(simd, at / LANES).fill(deep, columns, row));
             hidden &= (1 << len) - 1;
             let fragments = &queue.fragment[at..at + len];
             if hidden == 0 {
@@ -380,10 +180,10 @@ impl<const K: usize> Workspace<K> {
     }
 
     /// The network's answers to what waits.
-    fn flush_rows(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    fn flush_rows(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         let mut out = [0.0; ROWS];
         let rows = self.who.len();
-        network.answer(&self.columns, &mut out[..rows]);
+        network(&self.columns, &mut out[..rows]);
         self.rows += rows as u64;
         for (fragment, t) in self.who.drain(..).zip(out) {
             if fragment != DROPPED {
@@ -392,7 +192,7 @@ impl<const K: usize> Workspace<K> {
         }
     }
 
-    fn flush_all(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    fn flush_all(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         self.flush_short(task, network);
         self.flush(true, task, network);
         self.flush(false, task, network);
@@ -400,7 +200,7 @@ impl<const K: usize> Workspace<K> {
     }
 
     /// Pass 2.
-    fn pass_2(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    fn pass_2(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         let Switches {
             ends, faint, hidden, ..
         } = self.switches;
@@ -423,7 +223,7 @@ impl<const K: usize> Workspace<K> {
             for fragment in of.first as usize..(of.first + count) as usize {
                 let (view_z, absorbance) = (task.view_z[fragment], task.absorbance[fragment]);
                 let others = (b0 - absorbance).max(0.0);
-                let (near, alone) = (view_z == nearest, others <= 1e-6 * b0);
+                let (near, alone) = (view_z == nearest, others <= ALONE as f32 * b0);
                 if near | alone | (view_z == farthest) {
                     task.out[fragment] = if near | alone { 0.0 } else { others };
                     let behind = if alone { Class::Alone } else { Class::Farthest };
@@ -440,7 +240,7 @@ impl<const K: usize> Workspace<K> {
                 } else if faint {
                     task.faint(&of, fragment);
                 } else {
-                    self.ask(task, network, &of, fragment, at, task.z[fragment] >= deep_from);
+                    self.enqueue(task, network, &of, fragment, at, task.z[fragment] >= deep_from);
                 }
             }
         }
@@ -450,8 +250,9 @@ impl<const K: usize> Workspace<K> {
         self.recheck_hidden(task, network);
     }
 
-    /// Asks the network about hidden fragments after all where the weights of their pixel sum to too little for the bound to hold.
-    fn recheck_hidden(&mut self, task: &mut Task<'_, K>, network: &mut impl Network) {
+    /// Evaluates the network for hidden fragments after all where the weights of their pixel sum to too little for the
+    /// bound to hold.
+    fn recheck_hidden(&mut self, task: &mut Task<'_, K>, network: &mut impl FnMut(&[Column], &mut [f32])) {
         let mut hiding = std::mem::take(&mut self.hiding);
         for &pixel in &hiding {
             let of = task.summed[pixel as usize];
@@ -465,7 +266,7 @@ impl<const K: usize> Workspace<K> {
                 for fragment in own {
                     if task.class[fragment] == Class::Hidden {
                         task.class[fragment] = Class::Network;
-                        self.evaluated[0].push(
+                        self.waiting[0].push(
                             task.view_z[fragment],
                             task.z[fragment],
                             task.absorbance[fragment],
@@ -473,7 +274,7 @@ impl<const K: usize> Workspace<K> {
                             fragment as u32,
                             pixel as usize,
                         );
-                        if self.evaluated[0].is_full() {
+                        if self.waiting[0].is_full() {
                             self.flush(false, task, network);
                         }
                     }
@@ -538,12 +339,12 @@ impl<const K: usize> Task<'_, K> {
                     ends[1] = z;
                 }
             }
-            let h = (0.5 * (ends[1] - ends[0])).max(MIN_HALF_RANGE as f32);
+            let [centre, half_range] = half_range(ends);
             let thin = is_thin(sums.nearest, sums.farthest);
             self.summed.push(Summed {
                 sums,
-                c: 0.5 * (ends[0] + ends[1]),
-                h,
+                centre,
+                half_range,
                 thin,
                 first,
             });
@@ -590,38 +391,10 @@ fn transform_depths_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], 
             let n = z.len();
             let mut lanes = Lanes([nearest; LANES]);
             lanes.0[..n].copy_from_slice(view_z);
-            lanes.store(moment_depth(simd, lanes.load(simd), range));
+            lanes.store(moment_depth(lanes.load(simd), range));
             z.copy_from_slice(&lanes.0[..n]);
         }
     }
-}
-
-/// Puts the features of those of sixteen fragments that are not hidden into the columns, and says which are; none is where one does not look.
-#[inline(always)]
-fn describe<S: Simd, const K: usize>(
-    simd: S,
-    fragments: &Fragments<S, K>,
-    look: bool,
-    columns: &mut [Column],
-    row: usize,
-) -> u64 {
-    let described = fragments.describe(simd);
-    let (first, measure) = fragments.features(simd, &described);
-    let values = first.into_iter().chain(measure);
-    if look {
-        let hidden = fragments.hidden(simd, &described);
-        if hidden.any_true() {
-            let shown = !hidden;
-            for (column, value) in columns.iter_mut().zip(values) {
-                value.compress(shown).store_slice(&mut column[row..row + LANES]);
-            }
-            return hidden.to_bitmask();
-        }
-    }
-    for (column, value) in columns.iter_mut().zip(values) {
-        value.store_slice(&mut column[row..row + LANES]);
-    }
-    0
 }
 
 /// Both passes over the pixels of a list.
@@ -633,33 +406,32 @@ pub struct Passes {
     frame: MomentFrame,
 }
 
-impl Extractor {
-    /// Both passes of this feature set, where they are made for many pixels: recentred ones with moments summed in f32.
-    pub fn passes(&self) -> Option<Passes> {
-        match (self.kind, self.storage) {
-            (Kind::Recentred(warp), SumPrecision::F32) => Some(Passes {
-                moments: self.set.moments(),
-                width: self.set.width(),
-                warp,
-                frame: self.frame,
-            }),
-            _ => None,
-        }
-    }
-}
-
 impl Passes {
-    /// Transmittances of every fragment of pixels `range`, in the order of the list, and what decided each, on all cores. `network` makes what a thread asks.
+    /// Both passes of a feature set, where they are made for many pixels: recentred ones with moments summed in f32.
+    pub fn of(extractor: &Extractor) -> Option<Self> {
+        let set = extractor.set();
+        let has_lanes = set.spec().sums.has_precisions && extractor.precision() == SumPrecision::F32;
+        has_lanes.then(|| Self {
+            moments: set.moments(),
+            width: set.width(),
+            warp: extractor.log_warp(),
+            frame: extractor.frame(),
+        })
+    }
+
+    /// Transmittances of every fragment of pixels `range`, in the order of the list, and what decided each, on all
+    /// cores. `network` makes the function that a thread asks: it answers the first `out.len()` rows of columns.
     ///
     /// # Accuracy
-    /// What is known and the features differ from [`Extractor::pixel`]'s by rounding in f32; `passes_follow_the_extractor`.
+    /// What is known and the features differ from [`Extractor::pixel`]'s by rounding in f32;
+    /// `passes_follow_the_extractor`.
     ///
     /// # Shapes
     /// `out`, `class`: one a fragment of the range.
     ///
     /// # Panics
     /// If either has another length.
-    pub fn run<N: Network>(
+    pub fn run<N: FnMut(&[Column], &mut [f32])>(
         &self,
         list: &FragmentList,
         range: std::ops::Range<usize>,
@@ -675,7 +447,7 @@ impl Passes {
         }
     }
 
-    fn run_of<const K: usize, N: Network>(
+    fn run_of<const K: usize, N: FnMut(&[Column], &mut [f32])>(
         &self,
         list: &FragmentList,
         range: std::ops::Range<usize>,
@@ -760,8 +532,10 @@ pub(crate) mod tests {
     use crate::numeric::rng::{Stream, stream};
     use crate::pixel::{absorbance, abuffer};
     use rand::RngExt;
+    use std::sync::Mutex;
 
-    /// Pixels of every kind: few and many fragments, faint and opaque ones, bunches, ties, alpha 0 and 1; colours at the ends of their range.
+    /// Pixels of every kind: few and many fragments, faint and opaque ones, bunches, ties, alpha 0 and 1; colours at
+    /// the ends of their range.
     pub(crate) fn pixels(rng: &mut Stream, pixels: usize) -> FragmentList {
         let (mut offsets, mut view_z, mut alpha, mut color) = (vec![0], vec![], vec![], vec![]);
         for _ in 0..pixels {
@@ -789,13 +563,10 @@ pub(crate) mod tests {
         FragmentList::new(offsets, view_z, alpha, Some(color)).unwrap()
     }
 
-    /// Keeps the rows that it is given.
-    struct Listener<'a>(&'a std::sync::Mutex<Vec<Vec<f32>>>);
-
-    impl Network for Listener<'_> {
-        fn answer(&mut self, columns: &[Column], out: &mut [f32]) {
-            // The answer is the first feature, so that rows can be told apart.
-            let mut rows = self.0.lock().unwrap();
+    /// Keeps the rows that it is given, row by row, and answers the first feature, so that rows can be told apart.
+    fn listener(rows: &Mutex<Vec<Vec<f32>>>) -> impl Fn(&[Column], &mut [f32]) + '_ {
+        |columns, out| {
+            let mut rows = rows.lock().unwrap();
             for (row, out) in out.iter_mut().enumerate() {
                 rows.push(columns.iter().map(|c| c[row]).collect());
                 *out = columns[0][row];
@@ -808,14 +579,14 @@ pub(crate) mod tests {
         list: &FragmentList,
         switches: Switches,
     ) -> (Vec<f32>, Vec<Class>, Tally, Vec<Vec<f32>>) {
-        let rows = std::sync::Mutex::new(Vec::new());
+        let rows = Mutex::new(Vec::new());
         let (mut out, mut class) = (vec![f32::NAN; list.len()], vec![Class::Network; list.len()]);
-        let passes = extractor.passes().unwrap();
+        let passes = Passes::of(extractor).unwrap();
         let tally = passes.run(
             list,
             0..list.pixels(),
             switches,
-            || Listener(&rows),
+            || listener(&rows),
             &mut out,
             &mut class,
         );
@@ -835,8 +606,9 @@ pub(crate) mod tests {
         hidden: true,
     };
 
-    /// Against [`Extractor::pixel`]: the network is evaluated for the same fragments; what is known to 1e-5, in pixels of four that are not thin to 1e-3, and the features of pixels that are
-    /// not thin to f32 rounding. Controls: the values one fragment on.
+    /// Against [`Extractor::pixel`]: the network is evaluated for the same fragments; what is known to 1e-5, in pixels
+    /// of four that are not thin to 1e-3, and the features of pixels that are not thin to f32 rounding. Controls: the
+    /// values one fragment on.
     #[test]
     fn passes_follow_the_extractor() {
         for set in [FeatureSet::Recentred, FeatureSet::Recentred6, FeatureSet::Recentred8] {
@@ -865,7 +637,8 @@ pub(crate) mod tests {
                 for (i, row) in range.clone().zip(whole.chunks_exact(width + 1)) {
                     assert_eq!(row[width].is_nan(), class[i] == Class::Network);
                     if class[i] != Class::Network {
-                        // Moments of thin pixels are what rounding makes of them; in pixels of three only the mean counts.
+                        // Moments of thin pixels are what rounding makes of them; in pixels of three only the mean
+                        // counts.
                         let bar = match class[i] {
                             Class::Three => 0.03,
                             Class::Four if thin => 1.0,
@@ -905,7 +678,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The same to the bit in any company, on any number of threads, and with switches off but for what they run in vain.
+    /// The same to the bit in any company, on any number of threads, and with switches off but for what they run in
+    /// vain.
     #[test]
     fn company_threads_and_switches_change_no_bit() {
         let list = pixels(&mut stream(2, 94, 0), 3000);
@@ -924,18 +698,19 @@ pub(crate) mod tests {
             .unwrap()
             .install(|| run(&extractor, &list, EXACT).0);
         assert_eq!(all, one);
-        let passes = extractor.passes().unwrap();
+        let passes = Passes::of(&extractor).unwrap();
         for range in [0..1, 17..18, 100..333, 0..list.pixels()] {
             let fragments = list.offsets()[range.start] as usize..list.offsets()[range.end] as usize;
             let (mut out, mut class) = (vec![0.0; fragments.len()], vec![Class::Network; fragments.len()]);
-            let rows = std::sync::Mutex::new(Vec::new());
-            passes.run(&list, range, EXACT, || Listener(&rows), &mut out, &mut class);
+            let rows = Mutex::new(Vec::new());
+            passes.run(&list, range, EXACT, || listener(&rows), &mut out, &mut class);
             assert_eq!(out, all[fragments]);
         }
     }
 
-    /// What every pixel's hidden fragments weigh in the exact image, in f64: at most 1/1024 in all; and the lanes decide as the f64 rule would, never more boldly than its truth allows.
-    /// Control: the fragments that are not hidden weigh more.
+    /// What every pixel's hidden fragments weigh in the exact image, in f64: at most 1/1024 in all; and the lanes
+    /// decide as the f64 rule would, never more boldly than its truth allows. Control: the fragments that are not
+    /// hidden weigh more.
     #[test]
     fn hidden_fragments_weigh_next_to_nothing() {
         for set in [FeatureSet::Recentred, FeatureSet::Recentred8] {

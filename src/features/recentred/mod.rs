@@ -1,11 +1,25 @@
-//! Recentred features: what the other fragments of a pixel look like from the pixel's own depth range, with everything taken out that is known exactly.
+//! Recentred features: what the other fragments of a pixel look like from the pixel's own depth range, with everything
+//! taken out that is known exactly.
 //!
-//! Pass 1 adds up b_0..b_K, counts fragments and keeps the nearest and the farthest view depth. Pass 2 removes the fragment's own absorbance,
-//! moves the moments to the pixel's own range [−1, 1], and describes the measure μ of the other fragments' absorbance by means and spreads:
-//! of μ itself, then of (1 − x²) μ, which no longer holds the two known fragments at the ends, and so on. Each spread is the variance as a share
-//! of the greatest that the mean allows, so that every feature has its range whatever the others are (canonical moments are built alike).
+//! Pass 1 adds up b_0..b_K, counts fragments and keeps the nearest and the farthest view depth. Pass 2 removes the
+//! fragment's own absorbance, moves the moments to the pixel's own range [−1, 1], and describes the measure μ of the
+//! other fragments' absorbance by means and spreads: of μ itself, then of (1 − x²) μ, which no longer holds the two
+//! known fragments at the ends, and so on. Each spread is the variance as a share of the greatest that the mean allows,
+//! so that every feature has its range whatever the others are (canonical moments are built alike).
 
+mod extract;
+pub mod formulas;
+pub mod source;
+
+use super::spec::{ExactRules, FeatureSpec, ShaderCalls, Sums, Tolerances};
+use super::{Answer, MomentDepthKind, OutputMeaning, Target};
 use crate::numeric::Scalar;
+use crate::numeric::real::{Real, c};
+use crate::synth::SynthConfig;
+use formulas::{
+    ALONE, Others, Pass2, half_range, is_thin, moments, others, place_in_thin, share_of_three, transmittance,
+};
+pub use formulas::{absorbance, moment_depth};
 
 /// Added to b_0' before its logarithm is taken, so that a faint pixel stays finite.
 pub const ABSORBANCE_OFFSET: f32 = 0.05;
@@ -52,44 +66,60 @@ pub const DESCRIPTION: [&str; 12] = [
     "So pixels of up to four fragments, and all that is nearest or farthest, never need the network.",
 ];
 
-/// Absorbance of a fragment, as the exported `nmt_absorbance` computes it.
-pub fn absorbance<R: Scalar>(alpha: R) -> R {
-    let c = R::from_f64;
-    if alpha < c(0.03) {
-        alpha * (R::ONE + alpha * (c(0.5) + alpha * (c(0.33333334) + alpha * (c(0.25) + alpha * c(0.2)))))
-    } else {
-        -(R::ONE - alpha).max(c(0.000045399931)).ln()
+const fn spec<const K: usize>(name: &'static str, answer: &'static str) -> FeatureSpec {
+    FeatureSpec {
+        name,
+        columns: COLUMNS.split_at(FIXED + K).0,
+        description: &DESCRIPTION,
+        sums: Sums {
+            moments: K,
+            // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are
+            // moments.
+            bits_per_pixel: 128 + 32 + 16 + 64 + 32 * K as u32,
+            has_precisions: true,
+        },
+        core: None,
+        depth: MomentDepthKind::Log,
+        output: OutputMeaning::AbsorbanceShare,
+        answer: Answer::AbsorbanceShare {
+            column: ABSORBANCE_COLUMN,
+            offset: ABSORBANCE_OFFSET,
+        },
+        target: Target::Transmittance,
+        exact: ExactRules {
+            ends: true,
+            closed_forms: 4,
+        },
+        tolerances: Tolerances {
+            single: 5e-6,
+            // f16 keeps 11 bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
+            half: 1e-1,
+            half_mean: 1e-3,
+            // Features are of the order of 1, with logarithms up to 10.
+            usual_feature_log2: 4,
+        },
+        default_pixels: SynthConfig::wide,
+        pixel: extract::pixel::<K>,
+        sample: Some(extract::sample::<K>),
+        is_sampled: true,
+        shader: ShaderCalls {
+            write_features: source::write_features::<K>,
+            write_answers: source::write_answers::<K>,
+            arguments: &source::PASS2_PARAMETERS,
+            answer,
+        },
     }
 }
 
-/// Moment depth of view depth v between v0 and v1, as the exported `nmt_moment_depth` computes it.
-pub fn moment_depth<R: Scalar>(v: f32, [v0, v1]: [f32; 2]) -> R {
-    if v1 > v0 {
-        let [v, v0, v1] = [v, v0, v1].map(R::from_f32);
-        let two = R::from_f64(2.0);
-        clamp(
-            two * log_ratio(v, v0) / log_ratio(v1, v0).max(R::from_f64(1e-30)) - R::ONE,
-            -R::ONE,
-            R::ONE,
-        )
-    } else {
-        R::ZERO
-    }
-}
+/// The feature set with four moments.
+pub const FOUR_MOMENTS: FeatureSpec = spec::<4>("recentred", "nmt_fragment_transmittance(HEAD, array<f32, 4>(TAIL))");
 
-/// ln(a/b), as accurate relative to itself where a is near b as elsewhere: a quotient near 1 keeps little of what made it differ from 1, and devices' logarithms are
-/// coarse there.
-fn log_ratio<R: Scalar>(a: R, b: R) -> R {
-    // ln(a/b) = 2 artanh(s)
-    let s = (a - b) / (a + b);
-    if s.abs() < R::from_f64(0.2) {
-        let c = R::from_f64;
-        let q = s * s;
-        (s + s) * (R::ONE + q * (c(0.33333334) + q * (c(0.2) + q * (c(0.14285715) + q * c(0.11111111)))))
-    } else {
-        (a / b).ln()
-    }
-}
+/// The feature set with six moments.
+pub const SIX_MOMENTS: FeatureSpec = spec::<6>("recentred-6", "nmt_fragment_transmittance(HEAD, array<f32, 6>(TAIL))");
+
+/// The feature set with eight moments.
+pub const EIGHT_MOMENTS: FeatureSpec =
+    spec::<8>("recentred-8", "nmt_fragment_transmittance(HEAD, array<f32, 8>(TAIL))");
 
 /// A pixel after pass 1.
 ///
@@ -132,31 +162,22 @@ pub struct FragmentTerms<R> {
     pub absorbance: R,
 }
 
-impl<R: Scalar> FragmentTerms<R> {
-    /// What the fragment adds to b_1..b_K; pass 2 takes away the same numbers.
-    fn moments<const K: usize>(&self) -> [R; K] {
-        let mut term = self.absorbance;
-        std::array::from_fn(|_| {
-            term *= self.z;
-            term
-        })
-    }
-}
-
 /// What storage does to moments: what pass 2 must know of it to see where it has left nothing but noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounding<R> {
     /// About the greatest that one rounding does to a moment, as a share of b_0.
     pub unit: R,
-    /// Whether every addition rounds, so that errors grow as the root of the number of fragments; else the finished sum alone is rounded.
+    /// Whether every addition rounds, so that errors grow as the root of the number of fragments; else the finished sum
+    /// alone is rounded.
     pub every_addition: bool,
 }
 
-impl<R: Scalar> Rounding<R> {
-    /// Of sums in the arithmetic R itself.
-    pub fn of_arithmetic() -> Self {
+impl<R: Real> Rounding<R> {
+    /// Of sums in the arithmetic of a number itself.
+    #[inline(always)]
+    pub fn of_arithmetic(like: R) -> Self {
         Self {
-            unit: R::EPSILON,
+            unit: like.like(R::ROUNDING),
             every_addition: true,
         }
     }
@@ -164,12 +185,14 @@ impl<R: Scalar> Rounding<R> {
     /// The usual error of a moment of n fragments, as a share of [`Self::unit`].
     ///
     /// # Accuracy
-    /// Measured over random pixels of 3 to 256 fragments: 0.05 to 0.1 √n for the fourth moment, 0.1 to 0.2 √n for the first.
+    /// Measured over random pixels of 3 to 256 fragments: 0.05 to 0.1 √n for the fourth moment, 0.1 to 0.2 √n for the
+    /// first.
+    #[inline(always)]
     fn usual(&self, n: R) -> R {
         if self.every_addition {
-            R::from_f64(USUAL_NOISE) * n.sqrt()
+            c(USUAL_NOISE) * n.sqrt()
         } else {
-            R::from_f64(0.3)
+            n.like(0.3)
         }
     }
 }
@@ -189,14 +212,15 @@ pub const MIN_HALF_RANGE: f64 = 1e-8;
 /// Greatest absorbance of a pixel that is computed with; more can only come of numbers that are none.
 pub const MAX_ABSORBANCE: f64 = 1e30;
 
-/// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what the expansion leaves out is 1e-5 of the range.
+/// Range of a pixel, relative to its nearest view depth, below which a fragment's place is taken from view depth; what
+/// the expansion leaves out is 1e-5 of the range.
 pub const THIN: f64 = 0.01;
 
 impl<R: Scalar, const K: usize> PixelSums<R, K> {
     /// Pass 1: adds a fragment.
     pub fn add(&mut self, terms: FragmentTerms<R>) {
         self.b0 += terms.absorbance;
-        for (b, term) in self.b.iter_mut().zip(terms.moments::<K>()) {
+        for (b, term) in self.b.iter_mut().zip(moments::<R, K>(terms.z, terms.absorbance)) {
             *b += term;
         }
         self.count += 1;
@@ -209,116 +233,59 @@ impl<R: Scalar, const K: usize> PixelSums<R, K> {
     /// `ends` are the moment depths of the nearest and the farthest view depth.
     ///
     /// # Domain
-    /// A fragment that pass 1 has added. Whatever rounding has done to the sums, the answer is in [0, 1] and the features are finite and within
-    /// their ranges.
+    /// A fragment that pass 1 has added. Whatever rounding has done to the sums, the answer is in [0, 1] and the
+    /// features are finite and within their ranges.
     pub fn classify(&self, terms: FragmentTerms<R>, ends: [R; 2]) -> Pass2Input<R, K> {
-        self.classify_stored(terms, ends, Rounding::of_arithmetic())
+        self.classify_stored(terms, ends, Rounding::of_arithmetic(R::ONE))
     }
 
     /// [`Self::classify`] at sums that storage has rounded more than the arithmetic would.
     pub fn classify_stored(&self, terms: FragmentTerms<R>, ends: [R; 2], rounding: Rounding<R>) -> Pass2Input<R, K> {
-        let others = clamp(self.b0 - terms.absorbance, R::ZERO, R::from_f64(MAX_ABSORBANCE));
-        if terms.view_z == self.nearest || others <= R::from_f64(1e-6) * self.b0 {
+        let absorbance = others(self.b0, terms.absorbance);
+        if terms.view_z == self.nearest || absorbance <= c(ALONE) * self.b0 {
             return Pass2Input::Solved(R::ONE);
         }
         if terms.view_z == self.farthest {
-            return Pass2Input::Solved(transmittance(others));
+            return Pass2Input::Solved(transmittance(absorbance));
         }
-        let half = R::from_f64(0.5);
-        let (c, h) = (
-            half * (ends[0] + ends[1]),
-            (half * (ends[1] - ends[0])).max(R::from_f64(MIN_HALF_RANGE)),
-        );
-        let m = self.recentred(terms, others, c, h);
-        let (moment_noise, noise_growth) = self.rounding(rounding.unit, others, c, h);
         let n = R::from_f64(f64::from(self.count));
-        let usual = rounding.usual(n);
-        let (measure, transition_width) = describe(&m, n, moment_noise, usual, noise_growth);
+        let [centre, half_range] = half_range(ends);
+        let pass2 = Pass2 {
+            z: terms.z,
+            absorbance: terms.absorbance,
+            b0: self.b0,
+            b: self.b,
+            n,
+            centre,
+            half_range,
+        };
+        let others = Others::new(&pass2, absorbance);
+        let rounded = others.rounded(&pass2, rounding);
+        let mean = rounded.mean();
         if self.count == 3 {
-            // The other two are the ends; their mean says how they share.
-            return Pass2Input::Solved(transmittance(others * clamp(half - half * measure[0], R::ZERO, R::ONE)));
+            return Pass2Input::Solved(transmittance(absorbance * share_of_three(mean)));
         }
-        let x = self.place(terms, c, h);
-        if self.count == 4 && K >= 3 {
-            return Pass2Input::Solved(transmittance(
-                others * share_of_four(x, [measure[0], measure[1], measure[2]], transition_width),
-            ));
-        }
-        // log2(n)/3 − 1
-        let count = n.ln() * R::from_f64(std::f64::consts::LOG2_E / 3.0) - R::ONE;
-        Pass2Input::Query([x, count, (others + R::from_f32(ABSORBANCE_OFFSET)).ln()], measure)
-    }
-
-    /// Place of a fragment in its pixel's range, in [−1, 1]. In thin pixels that of its view depth, of which more is known than of its moment depth.
-    fn place(&self, terms: FragmentTerms<R>, c: R, h: R) -> R {
         let [v, nearest, farthest] = [terms.view_z, self.nearest, self.farthest].map(R::from_f32);
-        if is_thin(nearest, farthest) {
+        let x = if is_thin(nearest, farthest) {
             place_in_thin(v, nearest, farthest)
         } else {
-            clamp((terms.z - c) / h, -R::ONE, R::ONE)
+            others.along
+        };
+        if K < 4 {
+            let mut columns = [mean; K];
+            columns[1] = rounded.two_columns()[1];
+            return Pass2Input::Query(rounded.first_columns(x), columns);
         }
-    }
-
-    /// m_1..m_K of the other fragments, in [−1, 1] whatever rounding has done.
-    fn recentred(&self, terms: FragmentTerms<R>, others: R, c: R, h: R) -> [R; K] {
-        let own = terms.moments::<K>();
-        let per_b0 = R::ONE / others;
-        let mut m: [R; K] = std::array::from_fn(|k| (self.b[k] - own[k]) * per_b0);
-        // Moments of z − c, one factor at a time: E[z^{k−j} (z − c)^j] = E[z^{k−j+1} (z − c)^{j−1}] − c E[z^{k−j} (z − c)^{j−1}].
-        for pass in 0..K {
-            for k in (pass..K).rev() {
-                let before = if k == 0 { R::ONE } else { m[k - 1] };
-                m[k] -= c * before;
-            }
+        let description = rounded.describe(mean);
+        if self.count == 4 {
+            return Pass2Input::Solved(transmittance(absorbance * description.share_of_four(x)));
         }
-        // No factor overflows, so that 0 stays 0 however thin the pixel.
-        let h1 = R::ONE / h;
-        let h2 = h1 * h1;
-        let powers = [h1, h2, h2 * h1, h2 * h2];
-        for (k, m) in m.iter_mut().enumerate() {
-            let scaled = if k < 4 {
-                *m * powers[k]
-            } else {
-                *m * powers[3] * powers[k - 4]
-            };
-            *m = clamp(scaled, -R::ONE, R::ONE);
-        }
-        m
+        Pass2Input::Query(rounded.first_columns(x), rounded.columns(&description))
     }
-
-    /// What one rounding may have done to m_1, and the factor by which it does more to each next moment: a unit of b_0, carried through the shift and the scale.
-    fn rounding(&self, unit: R, others: R, c: R, h: R) -> (R, R) {
-        let noise_growth = R::ONE + (c.abs() + c.abs()) / h;
-        (unit * noise_growth * self.b0 / others, noise_growth)
-    }
-}
-
-/// Share of the others' absorbance in front of place x in a pixel of four.
-///
-/// The nearest and the farthest are known atoms at −1 and 1; (1 − x²) μ holds the third alone, so its place u is the inner mean. With (1 − m_2) = (1 − u²) a for its
-/// mass a, the ends weigh (1 ∓ m_1 − (1 − m_2)/(1 ± u))/2. In front lie the near end and, where it is nearer than x, the third: all but the far end then, which says the
-/// same and is well conditioned where the near end is not. Rounding leaves u uncertain by the transition width; so much to either side of it the one goes over to the other, and as mean, spread and inner mean
-/// fade to what is expected, so does the share: it is continuous in the moments.
-fn share_of_four<R: Scalar>(x: R, [mean, spread, u]: [R; 3], transition_width: R) -> R {
-    let (half, least) = (R::from_f64(0.5), R::from_f64(MIN_MASS));
-    // 1 − m_2
-    let inner = (R::ONE - spread) * (R::ONE - mean * mean);
-    let near = clamp(
-        half * (R::ONE - mean - inner / (R::ONE + u).max(least)),
-        R::ZERO,
-        R::ONE,
-    );
-    let far = clamp(
-        half * (R::ONE + mean - inner / (R::ONE - u).max(least)),
-        R::ZERO,
-        R::ONE,
-    );
-    let behind = clamp(half + half * (x - u) / transition_width, R::ZERO, R::ONE);
-    clamp(near + behind * (R::ONE - far - near), R::ZERO, R::ONE)
 }
 
 /// Least mass of (1 − x²) μ that is divided by.
-const MIN_MASS: f64 = 1e-6;
+pub const MIN_MASS: f64 = 1e-6;
 
 /// Usual error of the first moment of one fragment, as a share of the rounding of a stored moment.
 pub const USUAL_NOISE: f64 = 0.12;
@@ -326,7 +293,8 @@ pub const USUAL_NOISE: f64 = 0.12;
 /// How much errors of moments grow from one to the next, as a share of the bound.
 pub const NOISE_GROWTH: f64 = 0.87;
 
-/// Roundings of the arithmetic itself within which two places are taken for one, whatever the sums; devices' quotients are a few ULP off.
+/// Roundings of the arithmetic itself within which two places are taken for one, whatever the sums; devices' quotients
+/// are a few ULP off.
 pub const ARITHMETIC: f64 = 8.0;
 
 /// A quantity of random pixels of n fragments, as a + b/n.
@@ -341,12 +309,6 @@ pub struct ByCount {
     pub few: f64,
 }
 
-impl ByCount {
-    fn of<R: Scalar>(self, per_n: R) -> R {
-        R::from_f64(self.many) + R::from_f64(self.few) * per_n
-    }
-}
-
 /// Standard deviation of the mean of a pixel's measure about 0.
 pub const MEAN_DEVIATION: ByCount = ByCount { many: 0.22, few: 0.7 };
 
@@ -359,125 +321,20 @@ pub const SPREAD_DEVIATION: ByCount = ByCount { many: 0.12, few: 0.5 };
 /// Standard deviation of the inner mean about what mean and spread lead to expect, as a share of the spread.
 pub const INNER_MEAN_DEVIATION: ByCount = ByCount { many: 0.17, few: 3.1 };
 
-/// What is expected of the square of the inner spread, as a share of that of the beta law, where the spread is small and the inner mean is what mean and spread lead to expect.
+/// What is expected of the square of the inner spread, as a share of that of the beta law, where the spread is small
+/// and the inner mean is what mean and spread lead to expect.
 pub const USUAL_INNER_SPREAD: ByCount = ByCount { many: 0.94, few: -3.8 };
 
-/// How much more is expected of that share, times the fourth power of the spread: what is spread out most gathers in several places, not at the ends alone.
+/// How much more is expected of that share, times the fourth power of the spread: what is spread out most gathers in
+/// several places, not at the ends alone.
 pub const INNER_SPREAD_OF_SPREAD: f64 = 4.0;
 
-/// How much less is expected of it, times the square of (1 + spread) (inner mean − what is expected of that): what is off to a side is narrow.
+/// How much less is expected of it, times the square of (1 + spread) (inner mean − what is expected of that): what is
+/// off to a side is narrow.
 pub const INNER_SPREAD_OF_OFFSET: f64 = 1.2;
 
 /// Standard deviation of the square of the inner spread about what is expected, as a share of the spread.
 pub const INNER_SPREAD_DEVIATION: ByCount = ByCount { many: 0.12, few: 1.4 };
-
-/// Whether the range of a pixel is so small that places in it are those of view depth.
-pub fn is_thin<R: Scalar>(nearest: R, farthest: R) -> bool {
-    (farthest - nearest) / nearest < R::from_f64(THIN)
-}
-
-/// Place of a view depth between the nearest and the farthest of a thin pixel, in [−1, 1].
-pub fn place_in_thin<R: Scalar>(v: R, nearest: R, farthest: R) -> R {
-    let range = farthest - nearest;
-    let t = (v - nearest) / range;
-    // ln(1 + r t)/ln(1 + r) to the first order in r = range/nearest
-    let x = t * (R::ONE + R::from_f64(0.5) * (range / nearest) * (R::ONE - t));
-    clamp(x + x - R::ONE, -R::ONE, R::ONE)
-}
-
-/// Means and spreads of a measure and of what is left of it as (1 − x²) takes its ends out again and again.
-///
-/// Rounding may leave nothing of a moment but noise. As the noise grows beyond what the quantity differs from pixel to pixel anyhow, each goes over to what the moments
-/// before it lead to expect: the inner mean and spread to about those of the beta law that has the measure's mean and spread, the spread to what is usual, the mean
-/// to 0. So a pixel that is ever thinner for its storage is described by four moments, then by two, then by its mean, without a jump. From the fifth moment on a mean
-/// goes to 0 and a spread to ½.
-///
-/// moment_noise is what one rounding may have done to the first moment, `usual` how much of that rounding usually does, `noise_growth` how much more it does to each next moment. Beside the
-/// features stands how far the inner mean may usually be off, by noise or, where that is more than is known anyhow, by what it differs from pixel to pixel.
-fn describe<R: Scalar, const K: usize>(m: &[R; K], n: R, moment_noise: R, usual: R, noise_growth: R) -> ([R; K], R) {
-    let c = R::from_f64;
-    let per_n = R::ONE / n;
-    let mut q = [R::ONE; 9];
-    q[1..=K].copy_from_slice(m);
-    let least = c(MIN_MASS);
-    let mut out = [R::ZERO; K];
-    let further = noise_growth * c(NOISE_GROWTH);
-    let noise1 = moment_noise * usual;
-    let noise2 = noise1 * further;
-    let noise3 = noise2 * further;
-    let noise4 = noise3 * further;
-    let (mut mean0, mut spread0, mut transition_width) = (R::ZERO, R::ZERO, R::ONE);
-    for (level, out) in out.chunks_exact_mut(2).enumerate() {
-        let last = K - 2 * level;
-        let per_mass = R::ONE / q[0].max(least);
-        let mut mean = clamp(q[1] * per_mass, -R::ONE, R::ONE);
-        match level {
-            0 => mean = shrink_to_prior(mean, R::ZERO, noise1, MEAN_DEVIATION.of(per_n)),
-            1 => {
-                let deviation = INNER_MEAN_DEVIATION.of(per_n) * (spread0 + c(0.02));
-                let noise = noise3 * per_mass;
-                let all = noise + c(ARITHMETIC) * R::EPSILON * per_mass;
-                transition_width = all * deviation / (all + deviation);
-                mean = shrink_to_prior(mean, mean0 * (R::ONE - spread0) / (R::ONE + spread0), noise, deviation);
-            }
-            _ => {}
-        }
-        let most = (R::ONE - mean * mean).max(least);
-        let mut spread = clamp((q[2] * per_mass - mean * mean) / most, R::ZERO, R::ONE);
-        match level {
-            0 => {
-                spread = shrink_to_prior(
-                    spread,
-                    USUAL_SPREAD.of(per_n),
-                    noise2 / most,
-                    SPREAD_DEVIATION.of(per_n),
-                );
-                (mean0, spread0) = (mean, spread);
-            }
-            1 => {
-                let deviation = INNER_SPREAD_DEVIATION.of(per_n) * (spread0 + c(0.02));
-                let offset = mean * (R::ONE + spread0) - mean0 * (R::ONE - spread0);
-                let square = spread0 * spread0;
-                let usual = USUAL_INNER_SPREAD.of(per_n) + c(INNER_SPREAD_OF_SPREAD) * square * square
-                    - c(INNER_SPREAD_OF_OFFSET) * offset * offset;
-                let expected = clamp(usual * spread0 / (R::ONE + spread0 + spread0), R::ZERO, R::ONE);
-                spread = shrink_to_prior(spread, expected, noise4 * per_mass / most, deviation).sqrt();
-            }
-            _ => {
-                spread = spread.sqrt();
-                let half = c(0.5);
-                let trust = |moment: usize| {
-                    let noise = (1..moment).fold(moment_noise, |e, _| e * noise_growth) * per_mass;
-                    R::ONE / (R::ONE + noise * noise)
-                };
-                mean *= trust(2 * level + 1);
-                spread = half + (spread - half) * trust(2 * level + 2);
-            }
-        }
-        (out[0], out[1]) = (mean, spread);
-        for k in 0..=last - 2 {
-            let beyond = q[k + 2];
-            q[k] -= beyond;
-        }
-    }
-    (out, transition_width)
-}
-
-/// What is best thought of a quantity: its value, or as the noise in it grows beyond its usual deviation what is expected of it.
-fn shrink_to_prior<R: Scalar>(value: R, expected: R, noise: R, deviation: R) -> R {
-    let trust = deviation * deviation;
-    expected + (value - expected) * (trust / (trust + noise * noise))
-}
-
-/// e^−A, never above 1 however coarse the exponential.
-fn transmittance<R: Scalar>(absorbance: R) -> R {
-    (-absorbance).exp().min(R::ONE)
-}
-
-/// NaN becomes the lower end.
-fn clamp<R: Scalar>(x: R, low: R, high: R) -> R {
-    x.max(low).min(high)
-}
 
 #[cfg(test)]
 mod tests {
@@ -558,7 +415,8 @@ mod tests {
         }
     }
 
-    /// One, two and three fragments in f64: 1e-9, whatever their depths and absorbances. Control: transmittances of the reversed pixel.
+    /// One, two and three fragments in f64: 1e-9, whatever their depths and absorbances. Control: transmittances of the
+    /// reversed pixel.
     #[test]
     fn up_to_three_fragments_are_exact() {
         let mut rng = stream(1, 90, 0);
@@ -600,9 +458,9 @@ mod tests {
         (worst, sum)
     }
 
-    /// Four fragments in f64, pixel half-range 0.1 and more, gaps of 5 % of the range: to 1e-9. Nearer together or thinner, rounding of the moments grows with the third
-    /// power of 1/half-range; in f32 the mean squared error stays below twice what was measured. Control: the
-    /// thinnest pixels break the bound of the others.
+    /// Four fragments in f64, pixel half-range 0.1 and more, gaps of 5 % of the range: to 1e-9. Nearer together or
+    /// thinner, rounding of the moments grows with the third power of 1/half-range; in f32 the mean squared error stays
+    /// below twice what was measured. Control: the thinnest pixels break the bound of the others.
     #[test]
     fn four_fragments_are_exact_where_rounding_allows() {
         for (half, gap, bar) in [(0.5, 0.05, 1e-9), (0.1, 0.05, 1e-9)] {
@@ -617,8 +475,8 @@ mod tests {
         }
     }
 
-    /// Pixels of four with sums rounded to f32, however thin: a hundredth of a rounding of any moment moves T by next to nothing. Control: ten roundings move it by a tenth now
-    /// and then.
+    /// Pixels of four with sums rounded to f32, however thin: a hundredth of a rounding of any moment moves T by next
+    /// to nothing. Control: ten roundings move it by a tenth now and then.
     #[test]
     fn four_fragments_leave_no_jump() {
         let mut rng = stream(5, 90, 0);
@@ -664,7 +522,8 @@ mod tests {
         assert!(worst <= 0.02 && controls > 100, "{worst}, {controls} controls");
     }
 
-    /// Features of μ against their definition in the pixel's own range, in f64: 1e-9 for pixels of half-range 0.3, so for every number of moments.
+    /// Features of μ against their definition in the pixel's own range, in f64: 1e-9 for pixels of half-range 0.3, so
+    /// for every number of moments.
     #[test]
     fn features_follow_their_definition() {
         fn compare<const K: usize>() {

@@ -1,0 +1,103 @@
+// Core of a pixel: codes of single fragments, 32 bits of whole numbers, so that both passes and every device find the
+// same ones.
+//
+// A fragment is its steps: x of depth in 0..2^NMT_DEPTH_BITS, 0 the nearest, and y of absorbance, 0 none. What a
+// renderer adds up, and removes later, is what the steps stand for. Slots of a pixel hold the nearest, the farthest of
+// the others, and the NMT_HEAVY heaviest of the rest; 0 is an empty slot.
+
+static const uint NMT_DEPTH_BITS = CORE_DEPTH_BITSu;
+// Steps of absorbance to the octave, as a power of two.
+static const uint NMT_OCTAVE_BITS = CORE_OCTAVE_BITSu;
+static const uint NMT_HEAVY = CORE_HEAVYu;
+// Slots of a pixel, empty ones at the end among them, a multiple of four.
+static const uint NMT_SLOTS = CORE_SLOTSu;
+// k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
+static const float NMT_KEY_SCALE = CORE_KEY_SCALE;
+// The last step of absorbance, that of A = 10.
+static const uint NMT_LAST_ABSORBANCE = CORE_LAST_ABSORBANCEu;
+static const uint NMT_LAST_DEPTH = (1u << NMT_DEPTH_BITS) - 1u;
+static const uint NMT_END_BITS = 32u - NMT_DEPTH_BITS;
+// Bits of 2^-10, below which steps of absorbance are linear.
+static const uint NMT_LINEAR_BITS = 0x3a800000u;
+static const float NMT_LINEAR = 0.0009765625;
+
+// Codes of a scene. The same for every fragment of a frame, in both passes.
+struct NmtCodes { int first_bits; int last_bits; int first_log2; uint shift; uint multiplier; uint slope; };
+
+// Logarithm of base 2 of the positive number with these bits, in units of 2^-23 octaves and 127 octaves more, by
+// integers alone: bits are a logarithm that is linear in each octave, and a parabola bends it.
+int nmt_core_log2(int bits) {
+    int m = bits & 0x007fffff;
+    int h = m >> 11;
+    int l = m & 2047;
+    int t = ((h * (4096 - h)) >> 1) + ((l * (2048 - h)) >> 11);
+    return bits + ((11 * t) >> 5);
+}
+
+// Codes of a scene whose view depths lie in [v0, v1], 0 < v0 <= v1.
+NmtCodes nmt_core_codes(float v0, float v1) {
+    int first = asint(v0);
+    int last = asint(v1);
+    int first_log2 = nmt_core_log2(first);
+    uint range = uint(nmt_core_log2(last) - first_log2);
+    uint shift = max(firstbithigh(range) + 1u, NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
+    uint multiplier = 0x80000000u / ((range >> shift) + 1u);
+    uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
+    NmtCodes codes;
+    codes.first_bits = first;
+    codes.last_bits = last;
+    codes.first_log2 = first_log2;
+    codes.shift = shift;
+    codes.multiplier = multiplier;
+    codes.slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
+    return codes;
+}
+
+// Steps of a fragment of view depth v.
+uint2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
+    int place = nmt_core_log2(clamp(asint(v), codes.first_bits, codes.last_bits));
+    uint w = uint(place - codes.first_log2) >> codes.shift;
+    uint a = asuint(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return uint2(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
+}
+
+// Moment depth that steps stand for, within (-1, 1).
+float nmt_core_depth(uint2 steps) {
+    return float(2u * steps.x + 1u) * (1.0 / float(NMT_LAST_DEPTH + 1u)) - 1.0;
+}
+
+// Absorbance that steps stand for.
+float nmt_core_absorbance(uint2 steps) {
+    return asfloat(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
+}
+
+// Codes in the three kinds of slots, and back. The greater code stays in a slot.
+uint nmt_core_nearest_code(uint2 steps) {
+    return ((NMT_LAST_DEPTH - steps.x) << NMT_END_BITS) | steps.y;
+}
+
+uint2 nmt_core_nearest_steps(uint code) {
+    return uint2(NMT_LAST_DEPTH - (code >> NMT_END_BITS), code & ((1u << NMT_END_BITS) - 1u));
+}
+
+uint nmt_core_farthest_code(uint2 steps) {
+    return (steps.x << NMT_END_BITS) | steps.y;
+}
+
+uint2 nmt_core_farthest_steps(uint code) {
+    return uint2(code >> NMT_END_BITS, code & ((1u << NMT_END_BITS) - 1u));
+}
+
+uint nmt_core_heavy_code(uint2 steps, NmtCodes codes) {
+    uint nearness = NMT_LAST_DEPTH - steps.x;
+    return ((steps.y + ((nearness * codes.slope) >> NMT_DEPTH_BITS)) << NMT_DEPTH_BITS) | nearness;
+}
+
+uint2 nmt_core_heavy_steps(uint code, NmtCodes codes) {
+    uint nearness = code & NMT_LAST_DEPTH;
+    uint key = code >> NMT_DEPTH_BITS;
+    return uint2(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
+}

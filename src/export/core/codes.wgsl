@@ -1,0 +1,97 @@
+// Core of a pixel: codes of single fragments, 32 bits of whole numbers, so that both passes and every device find the
+// same ones.
+//
+// A fragment is its steps: x of depth in 0..2^NMT_DEPTH_BITS, 0 the nearest, and y of absorbance, 0 none. What a
+// renderer adds up, and removes later, is what the steps stand for. Slots of a pixel hold the nearest, the farthest of
+// the others, and the NMT_HEAVY heaviest of the rest; 0 is an empty slot.
+
+const NMT_DEPTH_BITS: u32 = CORE_DEPTH_BITSu;
+// Steps of absorbance to the octave, as a power of two.
+const NMT_OCTAVE_BITS: u32 = CORE_OCTAVE_BITSu;
+const NMT_HEAVY: u32 = CORE_HEAVYu;
+// Slots of a pixel, empty ones at the end among them, a multiple of four.
+const NMT_SLOTS: u32 = CORE_SLOTSu;
+// k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
+const NMT_KEY_SCALE: f32 = CORE_KEY_SCALE;
+// The last step of absorbance, that of A = 10.
+const NMT_LAST_ABSORBANCE: u32 = CORE_LAST_ABSORBANCEu;
+const NMT_LAST_DEPTH: u32 = (1u << NMT_DEPTH_BITS) - 1u;
+const NMT_END_BITS: u32 = 32u - NMT_DEPTH_BITS;
+// Bits of 2^-10, below which steps of absorbance are linear.
+const NMT_LINEAR_BITS: u32 = 0x3a800000u;
+const NMT_LINEAR: f32 = 0.0009765625;
+
+// Codes of a scene. The same for every fragment of a frame, in both passes.
+struct NmtCodes { first_bits: i32, last_bits: i32, first_log2: i32, shift: u32, multiplier: u32, slope: u32 }
+
+// Logarithm of base 2 of the positive number with these bits, in units of 2^-23 octaves and 127 octaves more, by
+// integers alone: bits are a logarithm that is linear in each octave, and a parabola bends it.
+fn nmt_core_log2(bits: i32) -> i32 {
+    let m = bits & 0x007fffff;
+    let h = m >> 11u;
+    let l = m & 2047;
+    let t = ((h * (4096 - h)) >> 1u) + ((l * (2048 - h)) >> 11u);
+    return bits + ((11 * t) >> 5u);
+}
+
+// Codes of a scene whose view depths lie in [v0, v1], 0 < v0 <= v1.
+fn nmt_core_codes(v0: f32, v1: f32) -> NmtCodes {
+    let first = bitcast<i32>(v0);
+    let last = bitcast<i32>(v1);
+    let first_log2 = nmt_core_log2(first);
+    let range = u32(nmt_core_log2(last) - first_log2);
+    let shift = max(32u - countLeadingZeros(range), NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
+    let multiplier = 0x80000000u / ((range >> shift) + 1u);
+    let room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
+    let slope = min(u32(f32(range >> 8u) * NMT_KEY_SCALE), room);
+    return NmtCodes(first, last, first_log2, shift, multiplier, slope);
+}
+
+// Steps of a fragment of view depth v.
+fn nmt_core_steps(v: f32, absorbance: f32, codes: NmtCodes) -> vec2<u32> {
+    let place = nmt_core_log2(clamp(bitcast<i32>(v), codes.first_bits, codes.last_bits));
+    let w = u32(place - codes.first_log2) >> codes.shift;
+    let a = bitcast<u32>(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return vec2<u32>(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
+}
+
+// Moment depth that steps stand for, within (-1, 1).
+fn nmt_core_depth(steps: vec2<u32>) -> f32 {
+    return f32(2u * steps.x + 1u) * (1.0 / f32(NMT_LAST_DEPTH + 1u)) - 1.0;
+}
+
+// Absorbance that steps stand for.
+fn nmt_core_absorbance(steps: vec2<u32>) -> f32 {
+    return bitcast<f32>(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
+}
+
+// Codes in the three kinds of slots, and back. The greater code stays in a slot.
+fn nmt_core_nearest_code(steps: vec2<u32>) -> u32 {
+    return ((NMT_LAST_DEPTH - steps.x) << NMT_END_BITS) | steps.y;
+}
+
+fn nmt_core_nearest_steps(code: u32) -> vec2<u32> {
+    return vec2<u32>(NMT_LAST_DEPTH - (code >> NMT_END_BITS), code & ((1u << NMT_END_BITS) - 1u));
+}
+
+fn nmt_core_farthest_code(steps: vec2<u32>) -> u32 {
+    return (steps.x << NMT_END_BITS) | steps.y;
+}
+
+fn nmt_core_farthest_steps(code: u32) -> vec2<u32> {
+    return vec2<u32>(code >> NMT_END_BITS, code & ((1u << NMT_END_BITS) - 1u));
+}
+
+fn nmt_core_heavy_code(steps: vec2<u32>, codes: NmtCodes) -> u32 {
+    let nearness = NMT_LAST_DEPTH - steps.x;
+    return ((steps.y + ((nearness * codes.slope) >> NMT_DEPTH_BITS)) << NMT_DEPTH_BITS) | nearness;
+}
+
+fn nmt_core_heavy_steps(code: u32, codes: NmtCodes) -> vec2<u32> {
+    let nearness = code & NMT_LAST_DEPTH;
+    let key = code >> NMT_DEPTH_BITS;
+    return vec2<u32>(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
+}

@@ -1,0 +1,243 @@
+//! Arithmetic of core and tail, each formula once, over every kind of number.
+
+use crate::numeric::real::{Real, c};
+
+/// Added to b_0'' before its logarithm is taken, so that a faint tail stays finite.
+pub const ABSORBANCE_OFFSET: f32 = 0.05;
+
+/// Least absorbance of a tail that is divided by.
+const MIN_ABSORBANCE: f64 = 1e-12;
+
+/// Least mass of (1 − x²) times the tail that is divided by.
+const MIN_MASS: f64 = 1e-6;
+
+/// Roundings of a sum that two places may be apart and still be taken for one.
+const ROUNDINGS: f64 = 16.0;
+
+/// Moments b_k − A z^k: a measure without one fragment. The products are those that were added, in the same order.
+#[inline(always)]
+pub fn without<R: Real, const N: usize>(b: [R; N], absorbance: R, z: R) -> [R; N] {
+    let mut term = absorbance;
+    std::array::from_fn(|k| {
+        let rest = b[k] - term;
+        term = term * z;
+        rest
+    })
+}
+
+/// Moments of (z − c)/h from those of z, not normalised.
+#[inline(always)]
+pub fn recentred<R: Real, const N: usize>(b: [R; N], center: R, per_h: R) -> [R; N] {
+    let mut m = b;
+    // One factor at a time: ∫ z^(k−j) (z − c)^j = ∫ z^(k−j+1) (z − c)^(j−1) − c ∫ z^(k−j) (z − c)^(j−1).
+    for pass in 0..N - 1 {
+        for k in (pass + 1..N).rev() {
+            m[k] = m[k] - center * m[k - 1];
+        }
+    }
+    let mut scale = per_h;
+    for m in &mut m[1..] {
+        *m = *m * scale;
+        scale = scale * per_h;
+    }
+    m
+}
+
+/// Absorbance of a tail, at least 0.
+#[inline(always)]
+pub fn absorbance_of<R: Real, const N: usize>(tail: [R; N]) -> R {
+    tail[0].clamp(c(0.0), c(1e30))
+}
+
+/// Normalised moments m_1..m_M of a tail, each in [−1, 1] whatever rounding has done; the first is m_0 = 1.
+#[inline(always)]
+pub fn normalised<R: Real, const N: usize>(tail: [R; N]) -> [R; N] {
+    let per = (c(1.0) / tail[0].max(c(MIN_ABSORBANCE))).named("per_b0");
+    std::array::from_fn(|k| {
+        if k == 0 {
+            tail[0].like(1.0)
+        } else {
+            (tail[k] * per).clamp(c(-1.0), c(1.0))
+        }
+    })
+}
+
+/// Means and spreads of a measure with moments 1, m_1.., then of (1 − x²) times it, and so on. Each spread is the
+/// variance
+/// as a share of the greatest that the mean allows; from the second on it is the root of that.
+#[inline(always)]
+pub fn described<R: Real, const N: usize>(m: [R; N]) -> [R; N] {
+    let mut q = m;
+    let mut out = m;
+    let mut first = 1;
+    while first < N {
+        let per_mass = c(1.0) / q[0].max(c(MIN_MASS));
+        let mean = (q[1] * per_mass).clamp(c(-1.0), c(1.0)).named("mean");
+        out[first] = mean;
+        let left = N - first;
+        if left > 1 {
+            let most = (c(1.0) - mean * mean).max(c(MIN_MASS));
+            let spread = ((q[2] * per_mass - mean * mean) / most).clamp(c(0.0), c(1.0));
+            out[first + 1] = if first == 1 { spread } else { spread.sqrt() };
+            for k in 0..left - 1 {
+                q[k] = q[k] - q[k + 2];
+            }
+        }
+        first += 2;
+    }
+    out
+}
+
+/// How far a place that comes from sums may be off, in the pixel's own range: `total` is b_0, `tail` b_0''.
+#[inline(always)]
+pub fn place_noise<R: Real>(total: R, tail: R, center: R, per_h: R) -> R {
+    total / tail.max(c(MIN_ABSORBANCE)) * (per_h + center.abs() * per_h) * c(ROUNDINGS * R::ROUNDING)
+}
+
+/// Whether what lies at `place` is in front of x: 0 at the same depth step and behind, 1 from the step before on, and
+/// in
+/// between where the place is off by `noise`. `step` is one depth step in the pixel's own range.
+#[inline(always)]
+pub fn in_front<R: Real>(x: R, place: R, step: R, noise: R) -> R {
+    ((x - place - step * c(0.25)) / (step * c(0.5) + noise)).clamp(c(0.0), c(1.0))
+}
+
+/// Share in front of x of a tail that is one fragment: it lies at the mean.
+#[inline(always)]
+pub fn share_of_one<R: Real>(x: R, mean: R, step: R, noise: R) -> R {
+    in_front(x, mean, step, noise)
+}
+
+/// Share in front of x of a tail that is two fragments, from its moments m_1..m_3: the nodes of the quadrature of
+/// Gauss.
+#[inline(always)]
+pub fn share_of_two<R: Real>(x: R, m: [R; 3], step: R, noise: R) -> R {
+    let [m1, m2, m3] = m;
+    let variance = (m2 - m1 * m1).max(c(1e-9)).named("variance");
+    // About the mean the nodes sum to the third moment over the variance, and multiply to minus the variance.
+    let third = m3 - c(3.0) * m1 * m2 + c(2.0) * m1 * m1 * m1;
+    let sum = (third / variance).clamp(c(-2.0), c(2.0)).named("sum");
+    let root = (sum * sum + c(4.0) * variance).sqrt().named("root");
+    let near = (c(0.5) * (sum - root)).named("near");
+    let far = (c(0.5) * (sum + root)).named("far");
+    let of_near = (far / root).clamp(c(0.0), c(1.0)).named("of_near");
+    let place = x - m1;
+    // Places err the more, the nearer together the two lie.
+    let noise = noise + noise / variance.sqrt().max(c(1e-4));
+    of_near * in_front(place, near, step, noise) + (c(1.0) - of_near) * in_front(place, far, step, noise)
+}
+
+/// Share in front of x by the beta law that has the measure's mean and spread, without a network: the log-odds of a beta
+/// variable as a normal one with a little skewness, and the normal law's distribution function as a sigmoid.
+///
+/// # Accuracy
+/// Within 0.0025 of the beta law's distribution function, root mean square over means in ±0.7 and spreads from 0.02 to
+/// 0.45, and 0.04 at worst; the constants are fitted to that.
+#[inline(always)]
+pub fn share_by_law<R: Real>(x: R, mean: R, spread: R) -> R {
+    R::step(
+        "share_by_law",
+        "Share of the tail in front of x by the beta law with its mean and spread.",
+        [("x", x), ("mean", mean), ("spread", spread)],
+        |[x, mean, spread]| {
+            let x = x.clamp(c(-0.9999), c(0.9999)).named("place");
+            let middle = (c(0.5) + c(0.5) * mean).clamp(c(1e-3), c(0.999)).named("middle");
+            let total = (c(1.0) / spread.clamp(c(1e-4), c(0.95)) - c(1.0)).named("total");
+            let a = (middle * total).named("a");
+            let b = (total - a).max(c(1e-5)).named("b");
+            let per_a = (c(1.0) / a).named("per_a");
+            let per_b = (c(1.0) / b).named("per_b");
+            let odds =
+                ((c(1.0) + x) / (c(1.0) - x) * (b + c(0.394)) / (a + c(0.394))).ln() + c(0.885) * (per_a - per_b);
+            let variance =
+                c(1.0) / (a + c(0.168)) + c(1.0) / (b + c(0.168)) + c(0.516) * (per_a * per_a + per_b * per_b);
+            let y = (odds / variance.sqrt()).named("y");
+            let skew = (c(0.222) * (per_a.sqrt() - per_b.sqrt())).named("skew");
+            // Where the parabola would turn back it stays.
+            let turned = y * skew * c(2.0);
+            let y = R::select(turned.lt(c(-1.0)), c(-0.5) / skew, y).named("held");
+            let normal = (y + skew * (y * y - c(1.0))).clamp(c(-8.0), c(8.0)).named("normal");
+            let logit = normal * (c(1.5976) + c(0.07056) * normal * normal);
+            c(1.0) / (c(1.0) + (-logit).exp())
+        },
+    )
+}
+
+/// log2(n)/3 − 1
+#[inline(always)]
+pub fn count_feature<R: Real>(n: R) -> R {
+    n.log2() * c(1.0 / 3.0) - c(1.0)
+}
+
+/// ln(b_0'' + 0.05)
+#[inline(always)]
+pub fn absorbance_feature<R: Real>(tail: R) -> R {
+    (tail + c(0.05)).ln()
+}
+
+/// T = exp(−front − b_0'' s), never above 1.
+#[inline(always)]
+pub fn transmittance<R: Real>(front: R, tail: R, share: R) -> R {
+    (-(front + tail * share)).exp().min(c(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The law against values of the beta distribution from SciPy (`scipy.stats.beta.cdf`), within 0.06; it rises from
+    /// 0 to 1.
+    /// Control: the law of the mirrored mean.
+    #[test]
+    fn the_law_is_near_the_beta_law() {
+        for (x, mean, spread, exact) in BETA {
+            let found = share_by_law(x, mean, spread);
+            assert!(
+                (found - exact).abs() <= 0.03,
+                "{x} {mean} {spread}: {found} for {exact}"
+            );
+            assert!(mean == 0.0 || (share_by_law(x, -mean, spread) - exact).abs() > 0.03);
+            let mut before = 0.0;
+            for i in 0..=100 {
+                let share = share_by_law(-1.0 + 0.02 * f64::from(i), mean, spread);
+                assert!(share >= before && share <= 1.0);
+                before = share;
+            }
+        }
+        for x in [-1.0f32, 0.0, 1.0] {
+            for mean in [-1.0, 0.0, 1.0] {
+                for spread in [0.0, 0.5, 1.0] {
+                    assert!((0.0..=1.0).contains(&share_by_law(x, mean, spread)));
+                }
+            }
+        }
+    }
+
+    /// x, mean and spread on [−1, 1], and the distribution function.
+    const BETA: [(f64, f64, f64, f64); 8] = [
+        (0.1, 0.3, 0.1, 0.253729),
+        (-0.5, -0.4, 0.05, 0.337604),
+        (0.8, 0.6, 0.2, 0.618397),
+        (-0.2, -0.3, 0.3, 0.611016),
+        (0.0, 0.25, 0.02, 0.037970),
+        (0.5, 0.4, 0.5, 0.422826),
+        (-0.7, -0.5, 0.15, 0.335249),
+        (0.3, 0.2, 0.01, 0.845287),
+    ];
+
+    /// Recentring against its definition, in f64.
+    #[test]
+    fn recentred_moments_follow_their_definition() {
+        let fragments = [(0.3, 0.1), (1.5, -0.2), (0.7, 0.25)];
+        let (center, h) = (0.05, 0.3);
+        let sums = |place: &dyn Fn(f64) -> f64| -> [f64; 7] {
+            std::array::from_fn(|k| fragments.iter().map(|(a, z)| a * place(*z).powi(k as i32)).sum())
+        };
+        let (found, expected) = (recentred(sums(&|z| z), center, 1.0 / h), sums(&|z| (z - center) / h));
+        for (f, e) in found.iter().zip(expected) {
+            assert!((f - e).abs() <= 1e-9, "{f} for {e}");
+        }
+        let left = fragments.iter().fold(sums(&|z| z), |b, &(a, z)| without(b, a, z));
+        assert!(left.iter().all(|b| b.abs() <= 1e-12));
+    }
+}

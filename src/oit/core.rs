@@ -1,0 +1,106 @@
+//! Core and tail without a network: single fragments of a pixel, and the sums of all others shared out by the beta law.
+
+use super::capabilities::{Capabilities, Needs};
+use super::registry::{Arguments, Entry, ParseError};
+use super::{Accumulated, Context, Method, MethodError};
+use crate::features::core::CoreSet;
+use crate::features::core::code::MAX_HEAVY;
+use crate::infer::core::{Tail, run};
+use crate::infer::{Class, Switches};
+use crate::pixel::{FragmentList, LogWarp, ViewZ};
+
+/// Name on the command line.
+pub const ENTRY: Entry = Entry {
+    head: "core",
+    pattern: "core:HEAVY",
+    source: "ours, after Maule, Comba, Torchelsen, Bastos, I3D 2013",
+    names,
+    build,
+};
+
+/// A method that keeps so many bits of sums, ends and single fragments, the latter by a chain of atomics.
+pub(super) const fn capabilities(bits: u32) -> Capabilities {
+    let of_sums = Capabilities::of_sums(1, false);
+    Capabilities {
+        bits_per_pixel: Some(bits),
+        needs: Needs {
+            atomics: true,
+            ..of_sums.needs
+        },
+        ..of_sums
+    }
+}
+
+/// Moments: the beta law has a mean and a spread.
+const MOMENTS: usize = 2;
+
+fn names(head: &str) -> Vec<String> {
+    ["4", "6"].iter().map(|k| format!("{head}:{k}")).collect()
+}
+
+fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
+    arguments.no_own()?;
+    match arguments.argument.and_then(|k| k.parse::<usize>().ok()) {
+        Some(heavy) if heavy <= MAX_HEAVY => Ok(Box::new(Core {
+            set: CoreSet::new(heavy, MOMENTS),
+        })),
+        _ => Err(arguments.wrong(format!("expected a number of heavy fragments from 0 to {MAX_HEAVY}"))),
+    }
+}
+
+/// The nearest, the farthest and the heaviest fragments, and the tail by the beta law; see
+/// [`features::core`](crate::features::core).
+struct Core {
+    set: CoreSet,
+}
+
+struct Answers<'a> {
+    list: &'a FragmentList,
+    transmittance: Vec<f32>,
+}
+
+impl Accumulated for Answers<'_> {
+    fn weights(&self, p: usize, out: &mut [f64]) {
+        for (out, &t) in out.iter_mut().zip(&self.transmittance[self.list.range(p)]) {
+            *out = t.into();
+        }
+    }
+}
+
+impl Method for Core {
+    fn name(&self) -> String {
+        format!("core:{}", self.set.heavy)
+    }
+
+    fn capabilities(&self) -> Capabilities {
+        capabilities(self.set.bits())
+    }
+
+    fn accumulate<'a>(
+        &'a self,
+        list: &'a FragmentList,
+        context: Context,
+    ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
+        let (v0, v1) = context.depth_range.or(list.depth_range()).unwrap_or((1.0, 1.0));
+        LogWarp::new(ViewZ(v0.into()), ViewZ(v1.into())).map_err(|source| MethodError::Depth {
+            method: self.name(),
+            source,
+        })?;
+        let codes = self.set.layout.codes(v0, v1);
+        let mut transmittance = vec![0.0; list.len()];
+        let mut classes = vec![Class::Known; list.len()];
+        let pixels = 0..list.pixels();
+        let switches = Switches::default();
+        run(
+            &self.set,
+            &codes,
+            Tail::Law,
+            list,
+            pixels,
+            switches,
+            &mut transmittance,
+            &mut classes,
+        );
+        Ok(Box::new(Answers { list, transmittance }))
+    }
+}
