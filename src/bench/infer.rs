@@ -17,8 +17,9 @@ const ONNXRUNTIME_REST: Duration = Duration::from_millis(100);
 /// Answers that differ by this much are no longer those of the same network.
 const SAME: f64 = 1e-3;
 
-/// Rows a second of [`Mlp::predict`] ("simd"), of [`Mlp::forward_batch`] in f32 ("reference") and, where its library is given, of onnxruntime on the exported
-/// graph, by turns with the multiply-add peak. A call answers `batch` random rows; onnxruntime's session is made once, outside of what is timed.
+/// Rows a second of [`Mlp::predict`] ("simd"), of [`Mlp::forward_batch`] in f32 ("reference") and, where its library is
+/// given, of onnxruntime on the exported graph, by turns with the multiply-add peak. A call answers `batch` random
+/// rows; onnxruntime's session is made once, outside of what is timed.
 ///
 /// # Errors
 /// [`BenchError`] where the batch is empty or onnxruntime fails or computes something else.

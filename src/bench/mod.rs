@@ -1,6 +1,7 @@
 //! How fast: training, generation, inference and transparency methods, measured and never printed.
 //!
-//! What is compared is measured by turns: every repetition runs each subject once, so that a machine that slows down slows all of them down, and ratios hold.
+//! What is compared is measured by turns: every repetition runs each subject once, so that a machine that slows down
+//! slows all of them down, and ratios hold.
 
 pub mod generate;
 pub mod infer;
@@ -27,7 +28,8 @@ const MAX_CALLS: u64 = 1 << 24;
 pub struct Plan {
     /// Repetitions, each a sample.
     pub repeat: usize,
-    /// Least time of a repetition, as far as the warm-up foretells it \[s\]; it is filled with as many calls as it takes.
+    /// Least time of a repetition, as far as the warm-up foretells it \[s\]; it is filled with as many calls as it
+    /// takes.
     pub sample_seconds: f64,
 }
 
@@ -54,7 +56,8 @@ pub enum BenchError {
     },
     /// The network and the rows have different widths.
     #[error(
-        "network {network} takes {found} features, but the rows have {expected}; choose a network that starts with {expected}"
+        "network {network} takes {found} features, but the rows have {expected}; choose a network that starts with \
+            {expected}"
     )]
     Width {
         /// The network.
@@ -138,7 +141,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The same with a pause after each of its repetitions: threads that wait for more work by spinning must not slow the next subject down.
+    /// The same with a pause after each of its repetitions: threads that wait for more work by spinning must not slow
+    /// the next subject down.
     pub fn with_rest(self, rest: Duration) -> Self {
         Self { rest, ..self }
     }
@@ -165,7 +169,8 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Doubles the number of calls until they take half a sample's time, and goes on from there in proportion. `time` says how long so many calls take \[s\].
+/// Doubles the number of calls until they take half a sample's time, and goes on from there in proportion. `time` says
+/// how long so many calls take \[s\].
 fn calls_that_fill(
     sample_seconds: f64,
     mut time: impl FnMut(u64) -> Result<f64, BenchError>,
@@ -191,7 +196,8 @@ pub struct Samples {
     pub rates: Vec<f64>,
 }
 
-/// Measures subjects by turns: all warm up, then every repetition takes each of them once. `progress` is told how many repetitions are done.
+/// Measures subjects by turns: all warm up, then every repetition takes each of them once. `progress` is told how many
+/// repetitions are done.
 ///
 /// # Errors
 /// [`Plan::validate`], and what a subject fails with.
@@ -250,7 +256,8 @@ impl Measurement {
         self.rows_per_second() * self.flops as f64 * 1e-9
     }
 
-    /// The multiply-add peak [GFLOP/s]: that of its fastest repetition, because it stands for what the machine can do at most.
+    /// The multiply-add peak [GFLOP/s]: that of its fastest repetition, because it stands for what the machine can do
+    /// at most.
     pub fn peak_gflops(&self) -> f64 {
         Summary::of(&self.peak.rates).max * 1e-9
     }

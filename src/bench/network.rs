@@ -123,7 +123,8 @@ impl Network {
     }
 }
 
-/// Multiply-adds of one training sample: forward, gradients of all weights, and derivatives of all activations but the inputs'. Biases are not counted.
+/// Multiply-adds of one training sample: forward, gradients of all weights, and derivatives of all activations but the
+/// inputs'. Biases are not counted.
 pub fn training_multiply_adds(shapes: &[(usize, usize)]) -> u64 {
     let weights: usize = shapes.iter().map(|(i, o)| i * o).sum();
     (3 * weights - shapes[0].0 * shapes[0].1) as u64
@@ -150,7 +151,8 @@ pub fn random_rows(set: FeatureSet, n: usize) -> Rows {
 mod tests {
     use super::*;
 
-    /// 7 · 32 + 32 · 16 + 16 = 752 forward; as much for the gradients of weights; without the first layer's 224 for those of activations.
+    /// 7 · 32 + 32 · 16 + 16 = 752 forward; as much for the gradients of weights; without the first layer's 224 for
+    /// those of activations.
     #[test]
     fn multiply_adds_by_hand() {
         let of = |text: &str| {

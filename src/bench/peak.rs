@@ -1,7 +1,9 @@
-//! The multiply-add peak: how many floating-point operations a second all cores can do at most, as a yardstick for kernels.
+//! The multiply-add peak: how many floating-point operations a second all cores can do at most, as a yardstick for
+//! kernels.
 //!
-//! Chains of f32 multiply-adds that depend on nothing but themselves, held in registers: no memory, no loads, nothing but the arithmetic units. Matrix
-//! multiplication reaches a little less. At SIMD levels without a fused multiply-add, it is a multiplication and an addition.
+//! Chains of f32 multiply-adds that depend on nothing but themselves, held in registers: no memory, no loads, nothing
+//! but the arithmetic units. Matrix multiplication reaches a little less. At SIMD levels without a fused multiply-add,
+//! it is a multiplication and an addition.
 
 use super::Subject;
 use crate::model::kernel::wide;
@@ -13,13 +15,15 @@ use std::hint::black_box;
 /// Multiply-adds of a chain in one call: enough to outweigh waking the threads.
 const LENGTH: usize = 1 << 18;
 
-/// Chains that hide a multiply-add's latency and fit the registers: vectors of sixteen where 32 registers hold one each, half as many otherwise.
+/// Chains that hide a multiply-add's latency and fit the registers: vectors of sixteen where 32 registers hold one
+/// each, half as many otherwise.
 const WIDE_CHAINS: usize = 16;
 const NARROW_CHAINS: usize = 6;
 
 #[inline(always)]
 fn chains<S: Simd, const N: usize>(simd: S) -> (f32, u64) {
-    // x ← 0.999 x + 0.001 tends to 1 from anywhere: no denormal numbers, no infinities, and nothing for a compiler to foresee.
+    // x ← 0.999 x + 0.001 tends to 1 from anywhere: no denormal numbers, no infinities, and nothing for a compiler to
+    // foresee.
     let (factor, summand) = (
         f32x16::splat(simd, black_box(0.999)),
         f32x16::splat(simd, black_box(0.001)),
@@ -62,7 +66,8 @@ pub fn subject() -> Subject<'static> {
 mod tests {
     use super::*;
 
-    /// The chains are really computed: each of them ends at 1, at every SIMD level. Control: before the end they are not there.
+    /// The chains are really computed: each of them ends at 1, at every SIMD level. Control: before the end they are
+    /// not there.
     #[test]
     fn chains_tend_to_one() {
         for level in [Level::new(), Level::baseline()] {

@@ -56,8 +56,8 @@ impl Summary {
     }
 }
 
-/// How many times as long each other subject took as the fastest, from the ratios within each repetition: the closing sentence of a
-/// comparison, in the form that hyperfine gives it. Empty where nothing is compared.
+/// How many times as long each other subject took as the fastest, from the ratios within each repetition: the closing
+/// sentence of a comparison, in the form that hyperfine gives it. Empty where nothing is compared.
 pub fn comparison(seconds: &[(&str, &[f64])]) -> String {
     let medians: Vec<f64> = seconds.iter().map(|(_, s)| Summary::of(s).median).collect();
     let Some(fastest) = (0..medians.len()).min_by(|&a, &b| medians[a].total_cmp(&medians[b])) else {

@@ -19,10 +19,12 @@ const PURPOSE: u64 = 0x100c;
 
 /// Samples a second of every backend, by turns with one another and with the multiply-add peak.
 ///
-/// A call is one step on the next batch: blocks of rows in random order, gradient, Adam. Rows that are left over after the last whole batch are not used.
+/// A call is one step on the next batch: blocks of rows in random order, gradient, Adam. Rows that are left over after
+/// the last whole batch are not used.
 ///
 /// # Errors
-/// [`BenchError`] where the rows do not fit the network or are fewer than a batch, or the batch is no multiple of sixteen.
+/// [`BenchError`] where the rows do not fit the network or are fewer than a batch, or the batch is no multiple of
+/// sixteen.
 pub fn train(
     plan: Plan,
     network: &Network,
@@ -123,7 +125,8 @@ pub struct Streaming {
 }
 
 impl Streaming {
-    /// Samples a second that epochs with fresh rows could have at best, where the same cores make them: all time goes into training and generation alone.
+    /// Samples a second that epochs with fresh rows could have at best, where the same cores make them: all time goes
+    /// into training and generation alone.
     pub fn bound(&self) -> f64 {
         let [training, generation] =
             [&self.in_memory, &self.generation].map(|samples| Summary::of(&samples.rates).median);
@@ -136,7 +139,8 @@ impl Streaming {
     }
 }
 
-/// Samples a second of whole epochs with fresh pixels, by turns with the same rows in memory and with generation alone. A call is one epoch, validation with it.
+/// Samples a second of whole epochs with fresh pixels, by turns with the same rows in memory and with generation alone.
+/// A call is one epoch, validation with it.
 ///
 /// # Errors
 /// [`BenchError`] where the dataset has no fresh pixels, or the backend cannot be had.
@@ -214,7 +218,8 @@ mod tests {
     use crate::features::FeatureSet;
     use crate::synth::SynthConfig;
 
-    /// Whole epochs are counted, and the bound is what two rates allow: a third of a second for training and two thirds for generation make one.
+    /// Whole epochs are counted, and the bound is what two rates allow: a third of a second for training and two thirds
+    /// for generation make one.
     #[test]
     fn streamed_epochs_are_bounded_by_their_parts() {
         let sizes = DatasetConfig {

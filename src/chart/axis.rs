@@ -7,7 +7,8 @@ use super::text::number;
 pub enum Scale {
     /// Equal steps are equal differences.
     Linear,
-    /// Equal steps are equal ratios. What lies more than so many decades below the greatest value, 0 too, stands on the lower edge.
+    /// Equal steps are equal ratios. What lies more than so many decades below the greatest value, 0 too, stands on the
+    /// lower edge.
     Log {
         /// Decades that are shown at most.
         decades: i32,

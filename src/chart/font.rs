@@ -106,7 +106,8 @@ pub fn draw(picture: &mut Raster, x: f64, y: f64, size: f64, color: Rgb, text: &
     }
 }
 
-/// Breaks a text into lines no wider than `widest`, after a hyphen, colon, plus, slash or space where there is one in reach.
+/// Breaks a text into lines no wider than `widest`, after a hyphen, colon, plus, slash or space where there is one in
+/// reach.
 pub fn wrap(text: &str, size: f64, widest: f64) -> Vec<String> {
     let mut lines = vec![];
     let mut line = String::new();

@@ -68,8 +68,8 @@ impl Area {
 
 type Segment = [(f64, f64); 2];
 
-/// For each point the place around it, near or, with a leader, far, that covers least of points, lines and labels before it; none where
-/// every place would cover another label.
+/// For each point the place around it, near or, with a leader, far, that covers least of points, lines and labels
+/// before it; none where every place would cover another label.
 fn places(at: &[(f64, f64)], labels: &[String], lines: &[Segment], frame: &Area) -> Vec<Option<Area>> {
     let mut taken: Vec<Area> = at.iter().map(|&p| Area::around(p, 6.0, 6.0)).collect();
     let points = taken.len();
@@ -135,7 +135,8 @@ pub(super) fn lines(series: &[Series], plot: &Plot, out: &mut String) {
     for (px, py, label_y, series) in labels {
         let (color, at) = (series.color % COLORS, x_end + 16.0);
         *out += &format!(
-            "<g class=\"s{color}\"><polyline class=\"leader\" points=\"{px:.1},{py:.1} {x_end:.1},{py:.1} {:.1},{label_y:.1}\"/>\
+            "<g class=\"s{color}\"><polyline class=\"leader\" points=\"{px:.1},{py:.1} {x_end:.1},{py:.1} \
+                {:.1},{label_y:.1}\"/>\
              <text class=\"label\" x=\"{at:.1}\" y=\"{:.1}\">{}<title>{}</title></text></g>\n",
             at - 4.0,
             label_y + 4.0,
@@ -181,7 +182,8 @@ pub(super) fn points(series: &[Series], plot: &Plot, out: &mut String) {
 mod tests {
     use super::*;
 
-    /// Twenty points in a heap: no label covers another label or leaves the frame. Control: labels all to the right of their points do.
+    /// Twenty points in a heap: no label covers another label or leaves the frame. Control: labels all to the right of
+    /// their points do.
     #[test]
     fn labels_do_not_overlap() {
         let at: Vec<(f64, f64)> = (0..20)

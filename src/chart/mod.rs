@@ -407,8 +407,8 @@ impl Tradeoff {
     }
 }
 
-/// Cost against error of methods: a mark each, filled where nothing is both cheaper and better; these are joined in steps. What has no
-/// place on logarithmic axes is left out, which is for the caller to say.
+/// Cost against error of methods: a mark each, filled where nothing is both cheaper and better; these are joined in
+/// steps. What has no place on logarithmic axes is left out, which is for the caller to say.
 pub fn tradeoffs(summary: String, cost: &str, error: &str, methods: &[Tradeoff]) -> Chart {
     let mut drawn: Vec<&Tradeoff> = methods.iter().filter(|m| m.is_drawn()).collect();
     drawn.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| a.name.cmp(&b.name)));
@@ -494,7 +494,8 @@ mod tests {
         assert!(!svg.contains("<m>") && !svg.contains("<t>"));
     }
 
-    /// Every coordinate is a finite number inside the chart, whatever the values; without a finite point there is no chart.
+    /// Every coordinate is a finite number inside the chart, whatever the values; without a finite point there is no
+    /// chart.
     #[test]
     fn any_value_stays_inside() {
         let wild: [&[(f64, f64)]; 8] = [
@@ -601,7 +602,8 @@ mod tests {
         assert_eq!(text, chart.document("Error & range", "not drawn: <one>").unwrap());
     }
 
-    /// All that logarithmic axes have a place for is drawn, filled on the front. Control: what lies behind it is hollow.
+    /// All that logarithmic axes have a place for is drawn, filled on the front. Control: what lies behind it is
+    /// hollow.
     #[test]
     fn tradeoffs_tell_the_front() {
         let method = |name: &str, cost, error, on_front| Tradeoff {

@@ -26,8 +26,8 @@ fn hidden(mlp: &Mlp, limit: f32, row: &[f32], mut met: impl FnMut(f32)) -> Vec<f
     x
 }
 
-/// Answers to rows of features. Features are clamped to `limit`; weights, products and sums of hidden layers are rounded to f16 one by one, in the order of
-/// [`Mlp::forward`]; the last layer and the answer are f32.
+/// Answers to rows of features. Features are clamped to `limit`; weights, products and sums of hidden layers are
+/// rounded to f16 one by one, in the order of [`Mlp::forward`]; the last layer and the answer are f32.
 ///
 /// # Shapes
 /// `rows: [N, W]`, row by row; the result is `[N]`.
@@ -58,7 +58,8 @@ mod tests {
     use crate::numeric::rng::stream;
     use rand::RngExt;
 
-    /// Whatever the features are, no sum overflows within the limit, and that is no idle word: a limit of 1e30 lets some.
+    /// Whatever the features are, no sum overflows within the limit, and that is no idle word: a limit of 1e30 lets
+    /// some.
     #[test]
     fn sums_stay_finite_within_the_limit() {
         for (hidden_sizes, seed) in [(&[32, 16][..], 1), (&[8], 2), (&[16, 16, 16], 3)] {

@@ -56,7 +56,8 @@ impl Report {
             ui.print_json(
                 "report",
                 vec![json!({
-                    "file": out, "bytes": page.html.len(), "sections": page.sections, "missing": missing, "problems": problems, "pictures": page.pictures,
+                    "file": out, "bytes": page.html.len(), "sections": page.sections, "missing": missing,
+                        "problems": problems, "pictures": page.pictures,
                     "pictures_left_out": page.pictures_left_out,
                 })],
             )?;

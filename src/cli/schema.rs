@@ -1,4 +1,5 @@
-//! The schemas in `configs/schema`, and the reference in `docs/configuration.md`, are made from the types that read the files.
+//! The schemas in `configs/schema`, and the reference in `docs/configuration.md`, are made from the types that read the
+//! files.
 //!
 //! `NMT_WRITE=1 cargo test --release schema` writes them anew.
 

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 /// Blocks that one task moves: enough to outweigh handing them over.
 const TASK: usize = 512;
 
-/// Rows in blocks of sixteen. A block holds W columns of features, then the targets, then the weights; rows that fill up the last block weigh 0.
+/// Rows in blocks of sixteen. A block holds W columns of features, then the targets, then the weights; rows that fill
+/// up the last block weigh 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocks {
     width: usize,
@@ -65,7 +66,8 @@ impl Blocks {
         blocks
     }
 
-    /// Overwrites the rows from `start` on with those of `other`, whose lead is as many rows as stand before `start` in its block.
+    /// Overwrites the rows from `start` on with those of `other`, whose lead is as many rows as stand before `start` in
+    /// its block.
     ///
     /// # Panics
     /// If the widths differ, or `other` reaches beyond the last row.

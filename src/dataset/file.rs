@@ -1,8 +1,8 @@
 //! A dataset on disk: `.npy` files that NumPy opens without our code, and a manifest.
 //!
-//! `training_features.npy` f32 `[N, W]`, `training_targets.npy` f32 `[N]`, `training_pixels.npy` u32 `[N]`, `training_weights.npy` f32 `[N]` where rows do not
-//! count alike, the same for `validation_`, and
-//! `manifest.json`, which is written last: a folder with a manifest holds a whole dataset.
+//! `training_features.npy` f32 `[N, W]`, `training_targets.npy` f32 `[N]`, `training_pixels.npy` u32 `[N]`,
+//! `training_weights.npy` f32 `[N]` where rows do not count alike, the same for `validation_`, and `manifest.json`,
+//! which is written last: a folder with a manifest holds a whole dataset.
 
 use super::build::DatasetConfig;
 use super::{Dataset, Rows};

@@ -38,7 +38,8 @@ pub struct AlphaBin {
 /// Number of bins of alpha, equal in width.
 const ALPHA_BINS: usize = 10;
 
-/// The bin of a pixel with n fragments: 0, 1, 2, 3 and 4 have one each, then come 5 to 8, 9 to 16, and so on by powers of two.
+/// The bin of a pixel with n fragments: 0, 1, 2, 3 and 4 have one each, then come 5 to 8, 9 to 16, and so on by powers
+/// of two.
 fn count_bin(n: usize) -> usize {
     if n <= 4 { n } else { (n - 1).ilog2() as usize + 3 }
 }
@@ -64,10 +65,12 @@ fn alpha_bin(alpha: f32) -> usize {
 
 /// Errors by the number of fragments in a pixel; bins without a pixel are left out.
 ///
-/// The mean of `transmittance_mse` weighted by `fragments` is the list's, that of `image_mse` weighted by `pixels` the image's.
+/// The mean of `transmittance_mse` weighted by `fragments` is the list's, that of `image_mse` weighted by `pixels` the
+/// image's.
 ///
 /// # Shapes
-/// `weights: [F]` and `exact: [F]`, none where the weights are no transmittances; `images` is a method's and the exact one.
+/// `weights: [F]` and `exact: [F]`, none where the weights are no transmittances; `images` is a method's and the exact
+/// one.
 ///
 /// # Panics
 /// If the lengths do not fit the list.
@@ -227,7 +230,8 @@ mod tests {
         (list, weights, exact, image(), image())
     }
 
-    /// Counts add up to the list's, weighted means of bins to the whole's within 1e-12 of it. Control: means that are not weighted do not.
+    /// Counts add up to the list's, weighted means of bins to the whole's within 1e-12 of it. Control: means that are
+    /// not weighted do not.
     #[test]
     fn bins_make_the_whole() {
         let (list, weights, exact, image, truth) = sample();

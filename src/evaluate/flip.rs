@@ -1,11 +1,12 @@
 //! LDR-FLIP: how large a person finds the difference between two images when flipping between them.
 //!
-//! Images are clamped to [0, 1], rounded to f32 and taken as the display values that FLIP expects, without any encoding before: so the
-//! numbers are those of FLIP's own tool on arrays of these values. Everything after that is in f64.
+//! Images are clamped to [0, 1], rounded to f32 and taken as the display values that FLIP expects, without any encoding
+//! before: so the numbers are those of FLIP's own tool on arrays of these values. Everything after that is in f64.
 //!
 //! # Source
-//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, *FLIP: A Difference Evaluator for Alternating Images*, PACMCGIT 3(2)
-//! 2020; section and constant names below are the paper's. Tools: CIELAB (CIE 15), sRGB (IEC 61966-2-1).
+//! Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, *FLIP: A Difference Evaluator for Alternating
+//! Images*, PACMCGIT 3(2) 2020; section and constant names below are the paper's. Tools: CIELAB (CIE 15), sRGB (IEC
+//! 61966-2-1).
 
 use super::EvaluateError;
 use super::image::{Image, same_size};
@@ -48,11 +49,12 @@ impl FlipMap {
 /// Visual difference of an image from a reference, on all cores, seen at [`PIXELS_PER_DEGREE`].
 ///
 /// # Domain
-/// Values outside [0, 1] are clamped; one that is not finite makes the map NaN within the reach of the filters (10 pixels).
+/// Values outside [0, 1] are clamped; one that is not finite makes the map NaN within the reach of the filters (10
+/// pixels).
 ///
 /// # Accuracy
-/// The mean and single pixels agree with flip-evaluator 1.7 to 2.5e-5 (test `agrees_with_flip_evaluator`). It computes in f32, and of
-/// what rounding leaves of its feature detectors on flat ground, about 1e-8, the square root is taken.
+/// The mean and single pixels agree with flip-evaluator 1.7 to 2.5e-5 (test `agrees_with_flip_evaluator`). It computes
+/// in f32, and of what rounding leaves of its feature detectors on flat ground, about 1e-8, the square root is taken.
 ///
 /// # Errors
 /// [`EvaluateError::SizesDiffer`].
@@ -60,7 +62,8 @@ pub fn flip(reference: &Image, test: &Image) -> Result<FlipMap, EvaluateError> {
     flip_at(reference, test, PIXELS_PER_DEGREE)
 }
 
-/// Rows that one thread filters at once: enough that the filters' overlap costs little, few enough that a band stays in the cache.
+/// Rows that one thread filters at once: enough that the filters' overlap costs little, few enough that a band stays in
+/// the cache.
 const BAND: usize = 48;
 
 fn flip_at(reference: &Image, test: &Image, pixels_per_degree: f64) -> Result<FlipMap, EvaluateError> {
@@ -98,7 +101,8 @@ type Taps = Vec<f64>;
 
 /// The filters and constants for one viewing distance.
 struct Observer {
-    /// Contrast sensitivity, one normalised Gaussian each: achromatic, red-green, and the two that blue-yellow is the mix of.
+    /// Contrast sensitivity, one normalised Gaussian each: achromatic, red-green, and the two that blue-yellow is the
+    /// mix of.
     sensitivity: [Taps; 4],
     /// Shares of the two Gaussians of blue-yellow, together 1.
     mix: [f64; 2],
@@ -276,7 +280,8 @@ impl Observer {
             .unwrap_or(0)
     }
 
-    /// Display colour to the linear opponent space YCxCz (lightness, red-green, blue-yellow), in which the eye's blur is described.
+    /// Display colour to the linear opponent space YCxCz (lightness, red-green, blue-yellow), in which the eye's blur
+    /// is described.
     fn opponent(&self, color: [f64; 3]) -> [f64; 3] {
         let linear = color.map(|v| {
             if !v.is_finite() {
@@ -305,7 +310,8 @@ impl Observer {
         apply(&self.from_xyz, xyz).map(|v| v.clamp(0.0, 1.0))
     }
 
-    /// Linear RGB to CIELAB, with chroma scaled by a hundredth of the lightness: colours of dark things differ less (Hunt effect).
+    /// Linear RGB to CIELAB, with chroma scaled by a hundredth of the lightness: colours of dark things differ less
+    /// (Hunt effect).
     fn lab(&self, linear: [f64; 3]) -> [f64; 3] {
         const DELTA: f64 = 6.0 / 29.0;
         let xyz = apply(&self.to_xyz, linear);
@@ -408,10 +414,12 @@ mod tests {
         }
     }
 
-    /// Name, size, both images, and what flip-evaluator says of them: mean, map at the first pixel, at (width/3, height/2), at the last.
+    /// Name, size, both images, and what flip-evaluator says of them: mean, map at the first pixel, at (width/3,
+    /// height/2), at the last.
     type Case = (&'static str, u32, u32, Channel, Channel, f64, [f64; 3]);
 
-    /// Printed by `scripts/flip_reference.py` with PyPI flip-evaluator 1.7 (f32 arrays, LDR, sRGB, 67 pixels per degree).
+    /// Printed by `scripts/flip_reference.py` with PyPI flip-evaluator 1.7 (f32 arrays, LDR, sRGB, 67 pixels per
+    /// degree).
     const CASES: [Case; 7] = [
         (
             "noise on a gradient",
@@ -496,14 +504,16 @@ mod tests {
                 ours.iter().zip(places).fold(0.0f64, |w, (a, b)| w.max((a - b).abs())),
             );
             println!(
-                "{pixels_per_degree} pixels per degree, {name}: mean off by {of_mean:.1e}, single pixels by {of_pixels:.1e}"
+                "{pixels_per_degree} pixels per degree, {name}: mean off by {of_mean:.1e}, single pixels by \
+                    {of_pixels:.1e}"
             );
             (mean, pixel) = (mean.max(of_mean), pixel.max(of_pixels));
         }
         (mean, pixel)
     }
 
-    /// Tolerance 4e-5 for the mean and for single pixels. Control: at 60 pixels per degree the numbers are others by more than 1e-3.
+    /// Tolerance 4e-5 for the mean and for single pixels. Control: at 60 pixels per degree the numbers are others by
+    /// more than 1e-3.
     #[test]
     fn agrees_with_flip_evaluator() {
         let (mean, pixel) = worst(PIXELS_PER_DEGREE);
@@ -530,10 +540,12 @@ mod tests {
     proptest! {
         /// Within [0, 1], the same both ways, and 0 between equal images; values far outside [0, 1] are clamped.
         #[test]
-        fn bounded_symmetric_and_zero_for_equal_images(width in 1u32..30, height in 1u32..30, salt in any::<u64>(), scale in 0.0f64..3.0) {
+        fn bounded_symmetric_and_zero_for_equal_images(width in 1u32..30, height in 1u32..30, salt in any::<u64>(),
+            scale in 0.0f64..3.0) {
             let pixels = |purpose: i64| -> Vec<[f64; 3]> {
                 let salt = (salt % 1000) as i64;
-                (0..i64::from(width * height)).map(|p| [0, 1, 2].map(|c| scale * (noise(p, purpose, c, salt) as f64 / 255.0) - 0.2)).collect()
+                (0..i64::from(width * height)).map(|p| [0, 1, 2].map(|c| scale * (noise(p, purpose, c,
+                    salt) as f64 / 255.0) - 0.2)).collect()
             };
             let a = Image::new(width, height, pixels(0)).unwrap();
             let b = Image::new(width, height, pixels(1)).unwrap();

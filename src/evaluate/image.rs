@@ -21,7 +21,8 @@ impl Image {
     /// `pixels: [height * width]`, row by row.
     ///
     /// # Errors
-    /// [`EvaluateError::NoPixels`] for an image without pixels, [`EvaluateError::PixelCount`] where their number is not width times height.
+    /// [`EvaluateError::NoPixels`] for an image without pixels, [`EvaluateError::PixelCount`] where their number is not
+    /// width times height.
     pub fn new(width: u32, height: u32, pixels: Vec<[f64; 3]>) -> Result<Self, EvaluateError> {
         if pixels.len() as u64 != u64::from(width) * u64::from(height) {
             return Err(EvaluateError::PixelCount {
@@ -85,7 +86,8 @@ impl ImageError {
         self.0.mse()
     }
 
-    /// Peak signal-to-noise ratio for a peak of 1: −10 log10(MSE) \[dB\]; infinite for equal images, NaN where the MSE is.
+    /// Peak signal-to-noise ratio for a peak of 1: −10 log10(MSE) \[dB\]; infinite for equal images, NaN where the MSE
+    /// is.
     pub fn psnr(&self) -> f64 {
         -10.0 * libm::log10(self.mse())
     }
@@ -99,7 +101,8 @@ impl ImageError {
 /// Size of the image that a list makes, where it makes one.
 ///
 /// # Errors
-/// [`EvaluateError::NoSize`] without width and height, [`EvaluateError::NoPixels`] where they are 0, [`EvaluateError::NoColor`] for fragments without colours.
+/// [`EvaluateError::NoSize`] without width and height, [`EvaluateError::NoPixels`] where they are 0,
+/// [`EvaluateError::NoColor`] for fragments without colours.
 pub fn size_of(list: &FragmentList) -> Result<(u32, u32), EvaluateError> {
     let (width, height) = list.size().ok_or(EvaluateError::NoSize { pixels: list.pixels() })?;
     if list.pixels() == 0 {
@@ -167,7 +170,8 @@ mod tests {
         Image::new(width, height, vec![[value; 3]; (width * height) as usize]).unwrap()
     }
 
-    /// One channel of one of four pixels is off by 0.5: 0.25/12; control: the mean over that pixel alone is another number.
+    /// One channel of one of four pixels is off by 0.5: 0.25/12; control: the mean over that pixel alone is another
+    /// number.
     #[test]
     fn mse_counts_every_pixel_and_clamps_nothing() {
         let reference = image(2, 2, 1.0);
@@ -190,7 +194,8 @@ mod tests {
         assert!(error.mse().is_nan() && error.psnr().is_nan());
     }
 
-    /// A method that answers exactly makes the ground truth (within 1e-14 where no depths tie); control: one that is off by 0.1 does not.
+    /// A method that answers exactly makes the ground truth (within 1e-14 where no depths tie); control: one that is
+    /// off by 0.1 does not.
     #[test]
     fn exact_weights_make_the_ground_truth() {
         let list = colored_list(24, 16);

@@ -1,4 +1,5 @@
-//! Pictures of an evaluation: every image and FLIP map as PNG, and a contact sheet that shows a whole scene at a glance.
+//! Pictures of an evaluation: every image and FLIP map as PNG, and a contact sheet that shows a whole scene at a
+//! glance.
 //!
 //! Numbers are never taken from these pictures: they are clamped, sRGB-encoded and rounded to 8 bits for display.
 
@@ -59,7 +60,8 @@ pub fn write_flip(path: &Path, replace: Replace, map: &FlipMap) -> Result<(), Ev
     )
 }
 
-/// A method's name as part of a file name: what is neither an ASCII letter, a digit, a dot nor a hyphen becomes a hyphen.
+/// A method's name as part of a file name: what is neither an ASCII letter, a digit, a dot nor a hyphen becomes a
+/// hyphen.
 ///
 /// Two names may give one part; the caller who evaluates such methods together must tell them apart.
 pub fn file_stem(method: &str) -> String {
@@ -81,7 +83,8 @@ pub fn file_stem(method: &str) -> String {
     }
 }
 
-/// Writes a method's image to `STEM.png` and its FLIP map to `STEM.flip.png` in a folder; nothing where the list makes no image.
+/// Writes a method's image to `STEM.png` and its FLIP map to `STEM.flip.png` in a folder; nothing where the list makes
+/// no image.
 ///
 /// # Errors
 /// [`EvaluateError::File`].
@@ -126,8 +129,8 @@ const FAINT: Rgb = [98, 98, 110];
 const FRAME: Rgb = [186, 186, 194];
 const ALARM: Rgb = [190, 0, 60];
 
-/// A contact sheet of one scene: the exact image and those of all methods, the best first, each with its numbers, its FLIP map and an
-/// enlarged crop of where the methods together differ most.
+/// A contact sheet of one scene: the exact image and those of all methods, the best first, each with its numbers, its
+/// FLIP map and an enlarged crop of where the methods together differ most.
 ///
 /// It keeps 7 bytes a pixel and method until it is rendered.
 pub struct Sheet {
@@ -320,7 +323,8 @@ impl Sheet {
         }
     }
 
-    /// The FLIP value that is drawn brightest: what 99 % of a middling method's pixels stay below, rounded up to 1, 2 or 5 times a power of ten.
+    /// The FLIP value that is drawn brightest: what 99 % of a middling method's pixels stay below, rounded up to 1, 2
+    /// or 5 times a power of ten.
     fn scale(&self) -> f64 {
         let mut high: Vec<f32> = self
             .methods
@@ -431,7 +435,8 @@ fn covers(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
     (0..to).map(one).collect()
 }
 
-/// Draws one cell of a sheet, from top to bottom: name, numbers, image, and below it the map (or the scale) beside the crop.
+/// Draws one cell of a sheet, from top to bottom: name, numbers, image, and below it the map (or the scale) beside the
+/// crop.
 struct Cell<'a> {
     sheet: &'a mut Raster,
     at: (u32, u32),
@@ -544,7 +549,8 @@ mod tests {
     use crate::evaluate::judge::tests::{Shifted, colored_list};
     use crate::oit::Context;
 
-    /// Encoding of 0, of the linear part's end, of a middle grey and of 1; control: without encoding the grey is another.
+    /// Encoding of 0, of the linear part's end, of a middle grey and of 1; control: without encoding the grey is
+    /// another.
     #[test]
     fn display_encodes_clamps_and_marks() {
         assert_eq!(display([0.0, 0.0031308, 1.0]), [0, 10, 255]);

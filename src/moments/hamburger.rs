@@ -10,7 +10,8 @@ use crate::pixel::MomentDepth;
 /// MKKP18 Sec. 3.2.
 pub const OVERESTIMATION: f64 = 0.25;
 
-/// Regularisation of normalised moments: b ← (1 − s) b + s b*, which moves them away from the edge of what is a measure's.
+/// Regularisation of normalised moments: b ← (1 − s) b + s b*, which moves them away from the edge of what is a
+/// measure's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bias {
     /// s, the `moment_bias` \[dimensionless\].
@@ -85,7 +86,8 @@ impl<R: Scalar, const N: usize> PowerCurve<R, N> {
     /// The curve of a pixel's moments b_0..b_2N, normalised by b_0 and then biased.
     ///
     /// # Domain
-    /// b_0 = 0 gives a curve that is NaN everywhere: whoever asks for a transmittance first looks whether there is absorbance at all.
+    /// b_0 = 0 gives a curve that is NaN everywhere: whoever asks for a transmittance first looks whether there is
+    /// absorbance at all.
     ///
     /// # Panics
     /// Unless there are M = 2N + 1 moments.
@@ -129,7 +131,8 @@ pub(crate) mod tests {
     use proptest::prelude::*;
     use std::path::Path;
 
-    /// Worst error, relative to the total absorbance, against an independent program's bounds (`tests/data/moment_bounds`).
+    /// Worst error, relative to the total absorbance, against an independent program's bounds
+    /// (`tests/data/moment_bounds`).
     fn worst_against_file<const N: usize, const M: usize>(bias: f64) -> f64 {
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/moment_bounds/moment_bounds_f64_n{N}.npz"));
@@ -166,8 +169,9 @@ pub(crate) mod tests {
         assert!(worst_against_file::<2, 5>(1.001e-3) > 1e-9 && worst_against_file::<3, 7>(1.001e-3) > 1e-9);
     }
 
-    /// Lower bound by another road: atoms y of the representation at z as eigenvalues of the pencil of localised Hankel matrices, found as sign changes of
-    /// det[∫ (x − y)(x − z) x^{i+j}] over y, and masses from the Vandermonde system of the moments themselves.
+    /// Lower bound by another road: atoms y of the representation at z as eigenvalues of the pencil of localised Hankel
+    /// matrices, found as sign changes of det[∫ (x − y)(x − z) x^{i+j}] over y, and masses from the Vandermonde system
+    /// of the moments themselves.
     fn bounds_by_determinants<const N: usize, const M: usize>(b: &[f64; M], z: f64) -> MassBounds<f64> {
         let determinant = |y: f64| {
             let mut a: Vec<Vec<f64>> = (0..N)
@@ -306,27 +310,32 @@ pub(crate) mod tests {
     proptest! {
         /// At most m/2 atoms at least 0.1 apart, moment_bias ≤ 1e-10.
         #[test]
-        fn few_atoms_are_exact(gaps in prop::collection::vec(0.1f64..0.5, 4), masses in prop::collection::vec(0.1f64..1.0, 4)) {
+        fn few_atoms_are_exact(gaps in prop::collection::vec(0.1f64..0.5, 4),
+            masses in prop::collection::vec(0.1f64..1.0, 4)) {
             atoms_are_reconstructed::<2, 5>(&gaps, &masses, 1e-10)?;
             atoms_are_reconstructed::<3, 7>(&gaps, &masses, 1e-12)?;
             atoms_are_reconstructed::<4, 9>(&gaps, &masses, 1e-13)?;
         }
 
-        /// Truth within unbiased bounds at every fragment, single precision staying near double. Tolerances: 1e-9 of the total; 2e-2 in f32 with 1e-3 of bias.
+        /// Truth within unbiased bounds at every fragment, single precision staying near double. Tolerances: 1e-9 of
+        /// the total; 2e-2 in f32 with 1e-3 of bias.
         #[test]
-        fn truth_lies_within_the_unbiased_bounds(fragments in prop::collection::vec((-1.0f64..1.0, 0.01f64..2.0), 4..40)) {
+        fn truth_lies_within_the_unbiased_bounds(fragments in prop::collection::vec((-1.0f64..1.0, 0.01f64..2.0),
+            4..40)) {
             let (z, a): (Vec<_>, Vec<_>) = fragments.iter().map(|&(z, a)| (MomentDepth(z), a)).unzip();
             let b: [f64; 7] = power_moments(&z, &a);
             let none = Bias { strength: 0.0, target: [0.0; 8] };
             let some = Bias { strength: 1e-3, ..Bias::single_precision(6) };
             let curve = PowerCurve::<f64, 3>::new(&b, &none);
-            let (double, single) = (PowerCurve::<f64, 3>::new(&b, &some), PowerCurve::<f32, 3>::new(&b.map(|b| b as f32), &some));
+            let (double, single) = (PowerCurve::<f64, 3>::new(&b, &some), PowerCurve::<f32,
+                3>::new(&b.map(|b| b as f32), &some));
             for &(at, own) in &fragments {
                 let below: f64 = fragments.iter().filter(|f| f.0 < at).map(|f| f.1).sum();
                 let bounds = curve.bounds(MomentDepth(at));
                 // Within 1e-9 where the atoms are not so close that rounding alone makes the matrix singular.
                 prop_assume!(curve.fractions.last_norm() > 1e-6);
-                prop_assert!(bounds.lower <= below + 1e-9 * b[0] && bounds.upper >= below + own - 1e-9 * b[0], "{below} + {own} in {bounds:?}");
+                prop_assert!(bounds.lower <= below + 1e-9 * b[0] && bounds.upper >= below + own - 1e-9 * b[0],
+                    "{below} + {own} in {bounds:?}");
                 let (d, s) = (double.transmittance(MomentDepth(at), 0.25), single.transmittance(MomentDepth(at), 0.25));
                 prop_assert!((d - f64::from(s)).abs() < 2e-2, "{d} {s}");
             }

@@ -12,8 +12,8 @@ use crate::pixel::MomentDepth;
 /// `depths: [n]`, `absorbances: [n]`; the result is `[N]`, b_0 first.
 ///
 /// # Domain
-/// z in [−1, 1], A ≥ 0. No fragment: all moments 0. Sums are taken in the order of the input and in the precision `R`; in another
-/// order they differ by rounding only (order independence is tested to `n · ε · b_0`).
+/// z in [−1, 1], A ≥ 0. No fragment: all moments 0. Sums are taken in the order of the input and in the precision `R`;
+/// in another order they differ by rounding only (order independence is tested to `n · ε · b_0`).
 ///
 /// # Panics
 /// If the slices differ in length.
@@ -49,8 +49,8 @@ mod tests {
     }
 
     proptest! {
-        /// Any order gives the same moments up to rounding: n · 2^−52 · b_0 in f64 and n · 2^−23 · b_0 in f32; and f64 agrees with the
-        /// definition written with `powi`.
+        /// Any order gives the same moments up to rounding: n · 2^−52 · b_0 in f64 and n · 2^−23 · b_0 in f32; and f64
+        /// agrees with the definition written with `powi`.
         #[test]
         fn order_independent(
             fragments in prop::collection::vec((-1.0f64..=1.0, 0.0f64..10.0), 1..64),
@@ -62,7 +62,8 @@ mod tests {
                 state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
                 shuffled.swap(i, (state >> 33) as usize % (i + 1));
             }
-            let split = |f: &[(f64, f64)]| -> (Vec<MomentDepth>, Vec<f64>) { f.iter().map(|&(z, a)| (MomentDepth(z), a)).unzip() };
+            let split = |f: &[(f64, f64)]| -> (Vec<MomentDepth>, Vec<f64>) { f.iter().map(|&(z, a)| (MomentDepth(z),
+                a)).unzip() };
             let (z, a) = split(&fragments);
             let (zs, a_s) = split(&shuffled);
             let n = fragments.len() as f64;

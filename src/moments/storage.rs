@@ -1,5 +1,5 @@
-//! Moments as render targets keep them: in single precision, in 16 bits after a linear transform, or as the non-linear quantities that describe the
-//! distribution directly.
+//! Moments as render targets keep them: in single precision, in 16 bits after a linear transform, or as the non-linear
+//! quantities that describe the distribution directly.
 
 use crate::numeric::orthogonal::Orthogonal;
 use crate::numeric::quantise::round_unorm16;
@@ -11,7 +11,8 @@ pub enum MomentStorage {
     F64,
     /// Single precision, rounded after every addition.
     F32,
-    /// b_0 in half precision, the others divided by it, linearly transformed and kept in 16 bits each; rounded after every addition.
+    /// b_0 in half precision, the others divided by it, linearly transformed and kept in 16 bits each; rounded after
+    /// every addition.
     Unorm16,
     /// b_0 in half precision and non-linear quantities in 16 bits each, converted once when all is added up.
     Nlqm,
@@ -29,7 +30,8 @@ impl MomentStorage {
     }
 }
 
-/// Linear transform of the odd or of the even moments: quantised = v · forward + offset, v = (quantised − offset) · inverse.
+/// Linear transform of the odd or of the even moments: quantised = v · forward + offset, v = (quantised − offset) ·
+/// inverse.
 #[derive(Debug, Clone, Copy)]
 struct Part<const N: usize> {
     forward: [[f64; N]; N],
@@ -203,7 +205,8 @@ impl<const N: usize> Part<N> {
     }
 }
 
-/// What comes back of normalised power moments b_1..b_2N that were kept in 16 bits each: a linear transform that fills the range of a 16-bit fraction, rounding, and back.
+/// What comes back of normalised power moments b_1..b_2N that were kept in 16 bits each: a linear transform that fills
+/// the range of a 16-bit fraction, rounding, and back.
 ///
 /// # Source
 /// MKKP18 Sec. 4.1 and supplementary document.
@@ -238,14 +241,16 @@ pub fn through_unorm16<const M: usize>(normalised: [f64; M]) -> [f64; M] {
 /// One step of a 16-bit fraction.
 const STEP: f64 = 1.0 / 65535.0;
 
-/// What comes back of regularised moments of mass 1 that were kept as 2N non-linear quantities of 16 bits each: N depths and N − 1 shares of the distribution that has
-/// the moments but the last, and the square root of how far the last moment lies between its least and its greatest possible value.
+/// What comes back of regularised moments of mass 1 that were kept as 2N non-linear quantities of 16 bits each: N
+/// depths and N − 1 shares of the distribution that has the moments but the last, and the square root of how far the
+/// last moment lies between its least and its greatest possible value.
 ///
-/// Quantities are never rounded to where the distribution would degenerate: depths stay apart by a step, shares stay positive.
+/// Quantities are never rounded to where the distribution would degenerate: depths stay apart by a step, shares stay
+/// positive.
 ///
 /// # Source
-/// The idea, depths and shares instead of four moments, is C. Peters' (*Non-linearly quantized moment shadow maps*, HPG 2017); the encoding of the last quantity and the
-/// generalisation to 6 and 8 moments are this program's own.
+/// The idea, depths and shares instead of four moments, is C. Peters' (*Non-linearly quantized moment shadow maps*, HPG
+/// 2017); the encoding of the last quantity and the generalisation to 6 and 8 moments are this program's own.
 ///
 /// # Shapes
 /// `moments: [2N + 1]`, those of a measure of mass 1 on [−1, 1], regularised.
@@ -304,24 +309,31 @@ mod tests {
     }
 
     proptest! {
-        /// Without rounding the transforms are inverse to each other to the digits they are printed with (1e-9, 1e-5 for eight); with it a moment moves by at most
-        /// the rounding half step times the inverse's column sum, 5e-5, and does move.
+        /// Without rounding the transforms are inverse to each other to the digits they are printed with (1e-9, 1e-5
+        /// for eight); with it a moment moves by at most the rounding half step times the inverse's column sum, 5e-5,
+        /// and does move.
         #[test]
         fn linear_transforms(fragments in prop::collection::vec((-1.0f64..=1.0, 0.01f64..2.0), 1..20)) {
-            let (four, six, eight) = (normalised::<5>(&fragments), normalised::<7>(&fragments), normalised::<9>(&fragments));
+            let (four, six, eight) = (normalised::<5>(&fragments), normalised::<7>(&fragments),
+                normalised::<9>(&fragments));
             let exact = |b: f64| b;
-            let part = |b: [f64; 5], p: &Part<2>, first: usize| worst(p.store([b[first], b[first + 2]], exact), [b[first], b[first + 2]]);
+            let part = |b: [f64; 5], p: &Part<2>, first: usize| worst(p.store([b[first], b[first + 2]], exact),
+                [b[first], b[first + 2]]);
             prop_assert!(part(four, &TRANSFORM_4.odd, 1) < 1e-9 && part(four, &TRANSFORM_4.even, 2) < 1e-9);
-            let back = [worst(through_unorm16(four), four), worst(through_unorm16(six), six), worst(through_unorm16(eight), eight)];
+            let back = [worst(through_unorm16(four), four), worst(through_unorm16(six), six),
+                worst(through_unorm16(eight), eight)];
             prop_assert!(back.iter().all(|&e| e > 0.0 && e < 5e-5), "{back:?}");
         }
 
-        /// Bounds after the non-linear storage stay near those before. Tolerance 1e-2 of the mass for four moments biased by 1e-3, and never NaN.
+        /// Bounds after the non-linear storage stay near those before. Tolerance 1e-2 of the mass for four moments
+        /// biased by 1e-3, and never NaN.
         #[test]
-        fn non_linear_quantities(fragments in prop::collection::vec((-1.0f64..=1.0, 0.01f64..2.0), 1..20), z in -1.0f64..=1.0) {
+        fn non_linear_quantities(fragments in prop::collection::vec((-1.0f64..=1.0, 0.01f64..2.0), 1..20),
+            z in -1.0f64..=1.0) {
             let bias = Bias { strength: 1e-3, ..Bias::single_precision(4) };
             let moments = bias.apply(normalised::<5>(&fragments));
-            let (before, after) = (Orthogonal::<f64, 2>::from_moments(&moments).bounds(z).blend(0.25), through_nlqm::<2, 5>(&moments).bounds(z).blend(0.25));
+            let (before, after) = (Orthogonal::<f64, 2>::from_moments(&moments).bounds(z).blend(0.25),
+                through_nlqm::<2, 5>(&moments).bounds(z).blend(0.25));
             prop_assert!((before - after).abs() < 1e-2, "{before} {after}");
             for strength in [5e-7, 1e-9] {
                 let single = Bias { strength, ..bias }.apply(normalised::<5>(&fragments[..1]));

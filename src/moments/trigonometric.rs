@@ -48,7 +48,8 @@ impl<R: Scalar, const M: usize> TrigonometricMoments<R, M> {
     }
 }
 
-/// A number that grows with the angle of a point of the unit circle, from −1 at angle 0 to 7 just below 2π, without inverse functions.
+/// A number that grows with the angle of a point of the unit circle, from −1 at angle 0 to 7 just below 2π, without
+/// inverse functions.
 ///
 /// # Source
 /// MKKP18 Sec. 5.2, ψ.
@@ -161,7 +162,8 @@ mod tests {
     proptest! {
         /// At most M atoms at least 0.1 apart and clear of the ends, moment_bias 1e-10: tolerance 1e-5 at every atom.
         #[test]
-        fn few_atoms_are_exact(gaps in prop::collection::vec(0.1f64..0.45, 4), masses in prop::collection::vec(0.1f64..1.0, 4)) {
+        fn few_atoms_are_exact(gaps in prop::collection::vec(0.1f64..0.45, 4),
+            masses in prop::collection::vec(0.1f64..1.0, 4)) {
             let mut at = -0.95;
             let fragments: Vec<(f64, f64)> = gaps.iter().zip(&masses).map(|(g, &a)| { at += g; (at, a) }).collect();
             let curves = (
@@ -184,7 +186,8 @@ mod tests {
 
         /// Single precision stays near double with a bias of 1e-3. Tolerance 2e-2 of T.
         #[test]
-        fn single_precision(fragments in prop::collection::vec((-1.0f64..1.0, 0.05f64..1.0), 1..20), z in -0.9f64..0.9) {
+        fn single_precision(fragments in prop::collection::vec((-1.0f64..1.0, 0.05f64..1.0), 1..20),
+            z in -0.9f64..0.9) {
             let b = moments::<3>(&fragments);
             let mut single = TrigonometricMoments::<f32, 3>::ZERO;
             for &(z, a) in &fragments {

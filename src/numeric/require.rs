@@ -1,6 +1,7 @@
 //! Tools that a machine may have or lack, and the variable that makes one of them a condition.
 //!
-//! A missing tool is reported as skipped. `NMT_REQUIRE=gpu,onnxruntime,...` turns the skip into a failure, in tests as in `nmt check`.
+//! A missing tool is reported as skipped. `NMT_REQUIRE=gpu,onnxruntime,...` turns the skip into a failure, in tests as
+//! in `nmt check`.
 
 use std::fmt::Display;
 

@@ -129,8 +129,9 @@ pub(crate) fn assert_close(a: &[f64], b: &[f64]) {
     assert!(agree(a, b), "{a:?} against {b:?}");
 }
 
-/// What holds for every method of K layers, nodes or passes: as many as there are fragments give the A-buffer's image, ties and opaque fragments
-/// included, and its weights where nothing ties; fewer do not, and the more the less error on average.
+/// What holds for every method of K layers, nodes or passes: as many as there are fragments give the A-buffer's image,
+/// ties and opaque fragments included, and its weights where nothing ties; fewer do not, and the more the less error on
+/// average.
 pub(crate) fn assert_converges(method: impl Fn(usize) -> Box<dyn Method>) {
     let (list, exact) = (scene(1), exact_image(&scene(1)));
     for k in [24, 25, 1000] {

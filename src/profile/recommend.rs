@@ -38,7 +38,8 @@ fn percent(x: f64) -> String {
 /// Mean squared error of which nobody sees anything: that of half a display step in every channel, 1/512.
 const UNSEEN_ERROR: f64 = 1.0 / (512.0 * 512.0);
 
-/// Chooses among networks. Where no `target_error` is given it is half a display step, squared, or a fifth more than the least error of any if that is greater.
+/// Chooses among networks. Where no `target_error` is given it is half a display step, squared, or a fifth more than
+/// the least error of any if that is greater.
 pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64>) -> Recommendation {
     let judged: Vec<(usize, f64)> = networks
         .iter()
@@ -70,7 +71,8 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
                 if s.error <= target.max(error) {
                     (storage, bits) = (s.storage, s.bits_per_pixel);
                     words.push(format!(
-                        "Moments may be stored in 16 bits ({}): the error becomes {:.2e}, and a pixel takes {} bits instead of {}.",
+                        "Moments may be stored in 16 bits ({}): the error becomes {:.2e}, and a pixel takes {} bits \
+                            instead of {}.",
                         name_of(s.storage),
                         s.error,
                         s.bits_per_pixel,
@@ -86,7 +88,8 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
             }
             per_fragment = evaluated.map(|share| share * n.multiply_adds as f64);
             words.push(format!(
-                "It costs {:.0} multiply-adds a fragment on average under exact, {:.0} under visible, {} without skipping.",
+                "It costs {:.0} multiply-adds a fragment on average under exact, {:.0} under visible, {} without \
+                    skipping.",
                 per_fragment[0], per_fragment[1], n.multiply_adds
             ));
             words.extend(idle_in_words(n));
@@ -131,7 +134,8 @@ fn scene_in_words(facts: &Facts) -> Vec<String> {
     let [exact, visible] = evaluated(facts);
     let closed = facts.share(Kind::OneOfThree) + facts.share(Kind::OneOfFour);
     let mut words = vec![format!(
-        "{} of the pixels are empty. Of the fragments {} need no network: {} are nearest, farthest or one of two, {} follow \
+        "{} of the pixels are empty. Of the fragments {} need no network: {} are nearest, farthest or one of two, {} \
+            follow \
          in closed form.",
         percent(facts.empty_pixels),
         percent(1.0 - exact),
@@ -146,7 +150,8 @@ fn scene_in_words(facts: &Facts) -> Vec<String> {
     });
     if facts.unseen > 0.05 {
         words.push(format!(
-            "{} of the fragments lie where less than 1/1024 of the light passes; order-independent bounds find {} of all. \
+            "{} of the fragments lie where less than 1/1024 of the light passes; order-independent bounds find {} of \
+                all. \
              What lies behind opaque surfaces is best never rasterised: draw those first.",
             percent(facts.unseen),
             percent(facts.share(Kind::Hidden))
@@ -193,7 +198,8 @@ fn tiles_in_words(facts: &Facts) -> Option<String> {
     let tiles = facts.tiles.as_ref()?;
     let share = |n: u64| percent(n as f64 / tiles.tiles.max(1) as f64);
     Some(format!(
-        "{} of the {} tiles of 8 x 8 pixels need no network ({} are empty, {} hold only what is known): an indirect dispatch \
+        "{} of the {} tiles of 8 x 8 pixels need no network ({} are empty, {} hold only what is known): an indirect \
+            dispatch \
          would leave them out.",
         percent(tiles.saved(crate::oit::neural::Skip::Exact)),
         tiles.tiles,
@@ -230,8 +236,10 @@ fn config(facts: &Facts, features: &str, hidden: &[usize], storage: SumPrecision
     };
     let law = |depth: &str, alpha_law: &str| {
         format!(
-            "[[synth.pixels]]\nweight = 1\nfragments = {{ min = {}, max = {}, law = \"log-uniform\" }}\ndepth = {depth}\n\
-             alpha = {{ law = \"{alpha_law}\", min = {:e}, max = {:e} }}\nrange = {{ half = {{ min = {:e}, max = {:e} }} }}\n\n",
+            "[[synth.pixels]]\nweight = 1\nfragments = {{ min = {}, max = {}, law = \"log-uniform\" }}\ndepth = \
+                {depth}\n\
+             alpha = {{ law = \"{alpha_law}\", min = {:e}, max = {:e} }}\nrange = {{ half = {{ min = {:e}, max = {:e} \
+             }} }}\n\n",
             fragments.0, fragments.1, alpha.0, alpha.1, half.0, half.1
         )
     };

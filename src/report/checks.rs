@@ -77,8 +77,10 @@ mod tests {
 
     #[test]
     fn findings_of_runs_and_checks() {
-        let finding = json!({ "format": "wgsl", "tool": "naga", "question": "computes <it>", "status": "failed", "reason": "1 > 0",
-            "numbers": [{ "rows": "in distribution", "count": 100000, "worst_error": 4.5e-6, "mean_error": 1e-8, "reference_worst_error": 2e-6, "bar": 5e-6 }] });
+        let finding = json!({ "format": "wgsl", "tool": "naga", "question": "computes <it>", "status": "failed",
+            "reason": "1 > 0",
+            "numbers": [{ "rows": "in distribution", "count": 100000, "worst_error": 4.5e-6, "mean_error": 1e-8,
+                "reference_worst_error": 2e-6, "bar": 5e-6 }] });
         let skipped = json!({ "format": "onnx", "tool": "onnxruntime", "status": "skipped", "numbers": [] });
         let html = section(&found(
             "run.json",

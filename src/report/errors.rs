@@ -66,7 +66,8 @@ pub fn tables(scenes: &[Scene]) -> String {
             details(&format!("{}{size}", scene.label), &html)
         };
     }
-    out + "<p class=\"note\">Image MSE is the mean over all pixels and channels, unclamped, against the exact image; T-MSE is over all fragments. \
+    out + "<p class=\"note\">Image MSE is the mean over all pixels and channels, unclamped, against the exact image; \
+        T-MSE is over all fragments. \
         Times are of one run of the reference implementation in f64 (networks in f32); they compare no renderers.</p>\n"
 }
 
@@ -211,7 +212,8 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
         .flat_map(|s| s.methods.iter().map(|m| m.name.as_str()))
         .collect();
     Some(format!(
-        "<p>Where a method errs: {} of {} methods, networks first, then the best of each kind over all scenes; exact ones have no curve. Colours and marks \
+        "<p>Where a method errs: {} of {} methods, networks first, then the best of each kind over all scenes; exact \
+            ones have no curve. Colours and marks \
          are the same in every chart; the lowest line holds all that is smaller, 0 too.</p>\n{out}",
         names.len(),
         total.len()
@@ -260,11 +262,17 @@ mod tests {
     use serde_json::json;
 
     fn sample() -> Vec<Scene> {
-        let bin = |least: u64, most: u64, t: f64| json!({ "least_fragments_per_pixel": least, "most_fragments_per_pixel": most, "pixels": 3, "fragments": 9, "transmittance_mse": t, "image_mse": 1e-3 });
+        let bin = |least: u64, most: u64, t: f64| {
+            json!({ "least_fragments_per_pixel": least,
+            "most_fragments_per_pixel": most, "pixels": 3, "fragments": 9, "transmittance_mse": t, "image_mse": 1e-3 })
+        };
         let row = |method: &str, t: f64| {
-            json!({ "scene": "s", "method": method, "image_mse": t, "image_psnr_db": 30.5, "flip_mean": 0.0123, "transmittance_mse": t, "nonfinite": 0,
-                "bits_per_pixel": u32::MAX, "seconds_accumulate": 0.001, "seconds_weights": 0.25, "fragments": 12345, "depth_complexity": 8,
-                "by_fragments_per_pixel": [bin(1, 1, 0.0), bin(5, 8, t)], "by_alpha": [{ "least_alpha": 0.1, "most_alpha": 0.2, "fragments": 9, "transmittance_mse": t }] })
+            json!({ "scene": "s", "method": method, "image_mse": t, "image_psnr_db": 30.5, "flip_mean": 0.0123,
+                "transmittance_mse": t, "nonfinite": 0,
+                "bits_per_pixel": u32::MAX, "seconds_accumulate": 0.001, "seconds_weights": 0.25, "fragments": 12345,
+                    "depth_complexity": 8,
+                "by_fragments_per_pixel": [bin(1, 1, 0.0), bin(5, 8, t)], "by_alpha": [{ "least_alpha": 0.1,
+                    "most_alpha": 0.2, "fragments": 9, "transmittance_mse": t }] })
         };
         scenes(&found(
             "results.json",

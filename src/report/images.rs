@@ -150,7 +150,8 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
                 ""
             };
             sheets += &format!(
-                "<details class=\"sheet\"{open}><summary>{}</summary><div class=\"shots\" data-scene=\"{i}\" data-label=\"{}\">\n{figures}</div></details>\n",
+                "<details class=\"sheet\"{open}><summary>{}</summary><div class=\"shots\" data-scene=\"{i}\" \
+                    data-label=\"{}\">\n{figures}</div></details>\n",
                 escape(&scene.label),
                 escape(&scene.label)
             );
@@ -163,7 +164,8 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
     html += &sheets;
     if !gallery.left_out.is_empty() {
         html += &format!(
-            "<p class=\"note warning\">{} pictures of {} together are left out, because those in the page take at most {}; --embed-mib allows more.</p>\n",
+            "<p class=\"note warning\">{} pictures of {} together are left out, because those in the page take at most \
+                {}; --embed-mib allows more.</p>\n",
             gallery.left_out.len(),
             bytes(gallery.left_out_bytes),
             bytes(most_bytes)
@@ -198,7 +200,8 @@ fn figure(scene: usize, name: &str, stats: &str, label: &str, image: &Picture, f
     let (name, stats, label) = (escape(name), escape(stats), escape(label));
     let img = |class: &str, p: &Picture, alt: String| {
         format!(
-            "<img class=\"{class}\" alt=\"{alt}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\" src=\"{}\">",
+            "<img class=\"{class}\" alt=\"{alt}\" width=\"{}\" height=\"{}\" loading=\"lazy\" decoding=\"async\" \
+                src=\"{}\">",
             p.width, p.height, p.uri
         )
     };
@@ -219,14 +222,18 @@ const VIEWER: &str = r#"<div class="viewer" id="viewer" hidden>
 <label>Scene <select id="v-scene"></select></label>
 <label>Left <select id="v-left"></select></label>
 <label>Right <select id="v-right"></select></label>
-<label>Zoom <select id="v-zoom"><option value="1">fit</option><option value="2">2×</option><option value="4">4×</option><option value="8">8×</option></select></label>
+<label>Zoom <select id="v-zoom"><option value="1">fit</option><option value="2">2×</option>
+<option value="4">4×</option><option value="8">8×</option></select></label>
 <label class="check"><input type="checkbox" id="v-flip"> FLIP map on the left</label>
 </div>
-<div class="pan" tabindex="0" role="region" aria-label="The two images; scrolls when enlarged"><div class="stage" id="v-stage"><img id="v-b" alt=""><img id="v-a" alt=""><span class="divider" aria-hidden="true"></span></div></div>
-<label class="range">Divider <input type="range" id="v-cut" min="0" max="100" step="0.5" value="50" aria-label="Divider: share of the width that shows the left image"></label>
+<div class="pan" tabindex="0" role="region" aria-label="The two images; scrolls when enlarged">
+<div class="stage" id="v-stage"><img id="v-b" alt=""><img id="v-a" alt=""><span class="divider" aria-hidden="true"></span></div></div>
+<label class="range">Divider <input type="range" id="v-cut" min="0" max="100" step="0.5" value="50"
+aria-label="Divider: share of the width that shows the left image"></label>
 <p class="sides" id="v-text" aria-live="polite"></p>
 </div>
-<p class="note"><label class="check"><input type="checkbox" id="g-flip"> FLIP maps in the contact sheets</label><br>FLIP maps run from near black (no difference) to pale yellow (1); magenta is not finite.</p>
+<p class="note"><label class="check"><input type="checkbox" id="g-flip"> FLIP maps in the contact sheets</label><br>
+FLIP maps run from near black (no difference) to pale yellow (1); magenta is not finite.</p>
 <noscript><p class="note">The slider needs scripts; the contact sheets below do not.</p></noscript>
 "#;
 
@@ -258,7 +265,10 @@ pub mod tests {
 
     fn folder() -> (tempfile::TempDir, Found) {
         let folder = tempfile::tempdir().unwrap();
-        let row = |m: &str, mse: f64| json!({ "scene": "s", "method": m, "image_mse": mse, "flip_mean": 0.5, "transmittance_mse": null, "nonfinite": 0 });
+        let row = |m: &str, mse: f64| {
+            json!({ "scene": "s", "method": m, "image_mse": mse, "flip_mean": 0.5,
+            "transmittance_mse": null, "nonfinite": 0 })
+        };
         let mut rows = vec![
             row("a", 1e-3),
             row("neural:<b>", 2e-3),
@@ -285,7 +295,8 @@ pub mod tests {
         (folder, found)
     }
 
-    /// Every picture stands in the page once; names from files choose no file outside the folder, and damaged pictures are named.
+    /// Every picture stands in the page once; names from files choose no file outside the folder, and damaged pictures
+    /// are named.
     #[test]
     fn pictures_are_embedded_once() {
         let (_folder, mut found) = folder();

@@ -1,4 +1,5 @@
-//! The section of `nmt profile`: what a scene needs in sentences, its drawing, and behind a click all that was measured, whatever it is.
+//! The section of `nmt profile`: what a scene needs in sentences, its drawing, and behind a click all that was
+//! measured, whatever it is.
 
 use super::find::Found;
 use super::html::{Cell, Table, base64, definitions, details, escape};
@@ -176,8 +177,10 @@ mod tests {
 
     #[test]
     fn histograms_become_tables_with_bars() {
-        let result = json!({ "scene": "teapots <x>", "fragments": 41000, "classes": [{ "class": "empty", "share": 0.5 }, { "class": "one", "share": 0.25 }],
-            "network": { "units_that_never_fire": 14, "layers": [7, 32] }, "nothing": [], "deep": { "a": { "b": { "c": { "d": { "e": 1 } } } } } });
+        let result = json!({ "scene": "teapots <x>", "fragments": 41000, "classes": [{ "class": "empty",
+            "share": 0.5 }, { "class": "one", "share": 0.25 }],
+            "network": { "units_that_never_fire": 14, "layers": [7, 32] }, "nothing": [],
+                "deep": { "a": { "b": { "c": { "d": { "e": 1 } } } } } });
         let html = section(&found(
             "p/results.json",
             json!({ "command": "profile", "results": [result, 5] }),
@@ -197,13 +200,14 @@ mod tests {
         assert!(section(&Found::default()).is_none());
     }
 
-    /// The drawing shows what the file holds, and the sentences are those of the recommendation. Control: counts that do not fit their bins
-    /// make no drawing.
+    /// The drawing shows what the file holds, and the sentences are those of the recommendation. Control: counts that
+    /// do not fit their bins make no drawing.
     #[test]
     fn scenes_are_drawn_and_described() {
         let of = |counts: Value| {
             json!({ "scene": "hair",
-                "facts": { "histograms": [{ "quantity": "alpha", "of": "fragments", "edges": [0.0, 0.5, 1.0], "counts": counts }],
+                "facts": { "histograms": [{ "quantity": "alpha", "of": "fragments", "edges": [0.0, 0.5, 1.0],
+                    "counts": counts }],
                     "classes": [{ "class": "nearest", "answer": "exact", "share": 0.25 }] },
                 "recommendation": { "words": ["Use <this>."] } })
         };

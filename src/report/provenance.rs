@@ -108,9 +108,11 @@ mod tests {
     fn files_machines_and_configurations() {
         let mut found = found(
             "e/results.json",
-            json!({ "command": "evaluate", "version": "0.1.0", "machine": { "cpu": "C <1>", "threads": 2 }, "results": [1, 2] }),
+            json!({ "command": "evaluate", "version": "0.1.0", "machine": { "cpu": "C <1>", "threads": 2 },
+                "results": [1, 2] }),
         );
-        let model = json!({ "format": "nmt-model", "version": 1, "name": "m", "provenance": { "seed": 12345, "commit": "abc", "config": { "k": "<v>" } } });
+        let model = json!({ "format": "nmt-model", "version": 1, "name": "m", "provenance": { "seed": 12345,
+            "commit": "abc", "config": { "k": "<v>" } } });
         found.documents.push(crate::report::find::Document {
             name: "m.json".to_owned(),
             value: model,

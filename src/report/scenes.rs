@@ -179,7 +179,8 @@ pub fn scenes(found: &Found) -> Vec<Scene> {
     scenes
 }
 
-/// The methods that charts show, at most so many: networks, then the best of each kind over all scenes; those that are exact everywhere have no curve.
+/// The methods that charts show, at most so many: networks, then the best of each kind over all scenes; those that are
+/// exact everywhere have no curve.
 pub fn chosen(scenes: &[Scene], most: usize) -> Vec<String> {
     // Place from the best to the last, over all scenes.
     let mut places: BTreeMap<&str, (f64, f64, bool, bool)> = BTreeMap::new();
@@ -243,10 +244,13 @@ pub mod tests {
     #[test]
     fn methods_are_sorted_and_null_is_told_from_nan() {
         let row = |method: &str, mse: Value, bad: u64| {
-            json!({ "scene": "s", "method": method, "image_mse": mse, "transmittance_mse": null, "nonfinite": bad, "image_nonfinite": bad,
-                "by_fragments_per_pixel": [{ "least_fragments_per_pixel": 0, "most_fragments_per_pixel": 0, "fragments": 0, "transmittance_mse": null, "image_mse": null }, "junk"] })
+            json!({ "scene": "s", "method": method, "image_mse": mse, "transmittance_mse": null, "nonfinite": bad,
+                "image_nonfinite": bad,
+                "by_fragments_per_pixel": [{ "least_fragments_per_pixel": 0, "most_fragments_per_pixel": 0,
+                    "fragments": 0, "transmittance_mse": null, "image_mse": null }, "junk"] })
         };
-        let rows = json!([row("b", json!(2e-3), 0), row("nan", json!(null), 4), row("a", json!(1e-3), 0), row("none", json!(null), 0), row("exact", json!(0.0), 0),
+        let rows = json!([row("b", json!(2e-3), 0), row("nan", json!(null), 4), row("a", json!(1e-3), 0), row("none",
+            json!(null), 0), row("exact", json!(0.0), 0),
             { "scene": "s", "method": "r", "error": "no planes" }, { "scene": "s" }, 7]);
         let scenes = scenes(&found(
             "e/results.json",

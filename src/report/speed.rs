@@ -50,8 +50,12 @@ pub fn section(found: &Found) -> Option<String> {
         }
         out += &table.html();
     }
-    (!out.is_empty())
-        .then(|| format!("{out}<p class=\"note\">Raw samples run from 0 at the left to the row's slowest repetition at the right.</p>\n"))
+    (!out.is_empty()).then(|| {
+        format!(
+            "{out}<p class=\"note\">Raw samples run from 0 at the left to the row's slowest repetition at \
+            the right.</p>\n"
+        )
+    })
 }
 
 /// The first rate of a row, with its unit.
@@ -88,7 +92,8 @@ fn strip(samples: &[f64]) -> Cell {
         .collect();
     let label = format!("{} samples", samples.len());
     Cell::svg(&format!(
-        "<svg class=\"strip\" viewBox=\"0 0 120 16\" width=\"120\" height=\"16\" role=\"img\" aria-label=\"{label}\"><path d=\"{strokes}\"/></svg>"
+        "<svg class=\"strip\" viewBox=\"0 0 120 16\" width=\"120\" height=\"16\" role=\"img\" \
+            aria-label=\"{label}\"><path d=\"{strokes}\"/></svg>"
     ))
 }
 
@@ -101,8 +106,10 @@ mod tests {
     #[test]
     fn medians_spreads_and_samples() {
         let rows = json!([
-            { "benchmark": "train", "network": "7-32-16-1", "backend": "fused", "batch": 8192, "samples_per_second": 32.5e6, "seconds": 2.5e-4, "min_seconds": 2e-4,
-              "max_seconds": 5e-4, "mad_seconds": 1e-5, "share_of_peak": 0.321, "raw_seconds": [2e-4, 2.5e-4, 5e-4, null] },
+            { "benchmark": "train", "network": "7-32-16-1", "backend": "fused", "batch": 8192,
+                "samples_per_second": 32.5e6, "seconds": 2.5e-4, "min_seconds": 2e-4,
+              "max_seconds": 5e-4, "mad_seconds": 1e-5, "share_of_peak": 0.321, "raw_seconds": [2e-4, 2.5e-4, 5e-4,
+                  null] },
             { "benchmark": "generate", "config": "<paper>", "pairs_per_second": 900.0, "raw_seconds": "none" },
             { "benchmark": "methods", "method": "elsewhere" }, "junk",
         ]);

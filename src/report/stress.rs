@@ -80,7 +80,8 @@ fn cases(file: &str, rows: &[&Value]) -> String {
             methods.len() - shown.len()
         );
     }
-    out + "<p class=\"note\">Colour runs with the logarithm of the error, from 1e-7 to 1. <b>✕</b>: answers that are not \
+    out + "<p class=\"note\">Colour runs with the logarithm of the error, from 1e-7 to 1. <b>✕</b>: answers that are \
+        not \
         finite; <b>↕</b>: answers outside [0, 1]. The worst error and more show on hovering.</p>\n"
 }
 
@@ -245,8 +246,12 @@ mod tests {
 
     #[test]
     fn sweeps_are_drawn() {
-        let point = |method: &str, x: f64, mse: f64| json!({ "kind": "sweep", "point": { "method": method, "sweep": "half_range", "x": x, "mse": mse } });
-        let rows = json!([point("a", 0.5, 1e-4), point("a", 1e-3, 1e-6), point("b", 0.5, 1e-5), { "sweep": "half_range", "x": "wide" }]);
+        let point = |method: &str, x: f64, mse: f64| {
+            json!({ "kind": "sweep", "point": { "method": method,
+            "sweep": "half_range", "x": x, "mse": mse } })
+        };
+        let rows = json!([point("a", 0.5, 1e-4), point("a", 1e-3, 1e-6), point("b", 0.5, 1e-5),
+            { "sweep": "half_range", "x": "wide" }]);
         let html = section(&found("results.json", json!({ "command": "stress", "results": rows }))).unwrap();
         assert!(
             html.matches("<svg class=\"chart\"").count() == 1

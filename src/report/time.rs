@@ -143,12 +143,14 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
     let note = if benchmarked {
         "Medians; only rows of one adapter and one fragment list may be compared."
     } else {
-        "Times of nmt evaluate: one run of the reference implementation on the CPU, classic methods in f64 and networks in f32. For figures that hold, measure \
+        "Times of nmt evaluate: one run of the reference implementation on the CPU, classic methods in f64 and \
+            networks in f32. For figures that hold, measure \
          with nmt bench methods."
     };
     (
         Some(format!(
-            "<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and better.</p>\n<div class=\"plots\">{out}</div>"
+            "<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and \
+                better.</p>\n<div class=\"plots\">{out}</div>"
         )),
         benchmarked,
     )
@@ -286,10 +288,12 @@ mod tests {
     #[test]
     fn adapters_and_scenes_stand_apart() {
         let row = |method: &str, adapter: &str, s: f64, e: Value| {
-            json!({ "benchmark": "methods", "method": method, "adapter": adapter, "scene": "hair", "seconds_weights": s, "raw_seconds_weights": [s, 2.0 * s, "x"],
+            json!({ "benchmark": "methods", "method": method, "adapter": adapter, "scene": "hair",
+                "seconds_weights": s, "raw_seconds_weights": [s, 2.0 * s, "x"],
                 "image_mse": e, "bits_per_pixel": 368, "fragments": 1000 })
         };
-        let rows = json!([row("neural:small", "gpu <0>", 1e-3, json!(1e-5)), row("moment-power-8", "gpu <0>", 2e-3, json!(2e-5)), row("m", "cpu", 1.0, json!(null)),
+        let rows = json!([row("neural:small", "gpu <0>", 1e-3, json!(1e-5)), row("moment-power-8", "gpu <0>", 2e-3,
+            json!(2e-5)), row("m", "cpu", 1.0, json!(null)),
             row("n", "cpu", 2.0, json!(1e-4)), { "benchmark": "train", "method": "x" }, { "benchmark": "methods" }, 3]);
         let found = found("b/results.json", json!({ "command": "bench", "results": rows }));
         let (html, benchmarked) = section(&found, &[]);

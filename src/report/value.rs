@@ -23,7 +23,8 @@ pub fn numbers(value: &Value, keys: &[&str]) -> Vec<f64> {
     found.map_or(Vec::new(), |list| list.iter().filter_map(Value::as_f64).collect())
 }
 
-/// A number that may have been NaN: null stands for it where `nonfinite` values are counted beside it, and for nothing where none are.
+/// A number that may have been NaN: null stands for it where `nonfinite` values are counted beside it, and for nothing
+/// where none are.
 pub fn number_or_nan(value: &Value, key: &str, nonfinite: bool) -> Option<f64> {
     match value.get(key) {
         Some(Value::Null) if nonfinite => Some(f64::NAN),

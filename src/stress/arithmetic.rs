@@ -8,13 +8,15 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// Single precision as a device may compute it.
 ///
-/// - `FUSED`: wherever a product is added to something, the product is not rounded first (fused multiply-add), whatever stands between the two.
-/// - `ROUGH`: quotients, square roots, exponentials and logarithms are as far off as WGSL allows, up or down at the whim of their operands' bits.
+/// - `FUSED`: wherever a product is added to something, the product is not rounded first (fused multiply-add), whatever
+///   stands between the two.
+/// - `ROUGH`: quotients, square roots, exponentials and logarithms are as far off as WGSL allows, up or down at the
+///   whim of their operands' bits.
 /// - `FLUSHED`: subnormal numbers are 0.
 ///
 /// # Source
-/// WGSL, Sec. "Floating Point Accuracy": 2.5 ULP for x / y, 3 + 2 |x| ULP for e^x and 2^x, 3 ULP for logarithms but 2^−21 in
-/// [0.5, 2]; √x inherits 1 / inverseSqrt(x), 2 + 2.5 ULP.
+/// WGSL, Sec. "Floating Point Accuracy": 2.5 ULP for x / y, 3 + 2 |x| ULP for e^x and 2^x, 3 ULP for logarithms but
+/// 2^−21 in [0.5, 2]; √x inherits 1 / inverseSqrt(x), 2 + 2.5 ULP.
 #[derive(Debug, Clone, Copy)]
 pub struct Device<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool>(
     /// A single-precision number, or under `FUSED` the exact product of two.
@@ -100,8 +102,8 @@ impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> PartialOrd for D
 impl<const FUSED: bool, const ROUGH: bool, const FLUSHED: bool> Add for Device<FUSED, ROUGH, FLUSHED> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        // Of two products only one can be fused. A product of two f32 is exact in f64, and its sum with an f32 rounds in f64 first, which a single rounding to f32
-        // undoes but for ties of one in 2^28.
+        // Of two products only one can be fused. A product of two f32 is exact in f64, and its sum with an f32 rounds
+        // in f64 first, which a single rounding to f32 undoes but for ties of one in 2^28.
         let b = if f64::from(self.0 as f32) == self.0 {
             other.0
         } else {
@@ -364,7 +366,8 @@ mod tests {
         assert!(differ > 1000);
     }
 
-    /// Within what the language allows, and off by more than half of it now and then; the same number for the same operands.
+    /// Within what the language allows, and off by more than half of it now and then; the same number for the same
+    /// operands.
     #[test]
     fn rough_functions_stay_within_their_allowance() {
         let mut farthest = [0.0f64; 3];

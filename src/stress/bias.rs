@@ -1,4 +1,5 @@
-//! How much power moments must be moved away from the edge of what is a measure's: non-finite answers and errors against `moment_bias`, by storage.
+//! How much power moments must be moved away from the edge of what is a measure's: non-finite answers and errors
+//! against `moment_bias`, by storage.
 
 use super::Errors;
 use super::cases::Case;
@@ -22,7 +23,8 @@ pub const STRENGTHS: [f64; 17] = [
 pub enum Kept {
     /// Single precision, in which everything else is computed too.
     F32,
-    /// b_0 in half precision, the others in 16 bits each, rounded after every addition; the rest is computed in single precision.
+    /// b_0 in half precision, the others in 16 bits each, rounded after every addition; the rest is computed in single
+    /// precision.
     Unorm16,
 }
 
@@ -114,7 +116,8 @@ pub fn points(pixels: usize) -> Vec<BiasPoint> {
     points
 }
 
-/// The strength of least error among those that leave no answer without a number, for each number of moments and storage.
+/// The strength of least error among those that leave no answer without a number, for each number of moments and
+/// storage.
 pub fn recommended(points: &[BiasPoint]) -> Vec<BiasPoint> {
     let mut best: Vec<BiasPoint> = Vec::new();
     for p in points.iter().filter(|p| p.nonfinite == 0 && p.single_nonfinite == 0) {

@@ -11,7 +11,8 @@ use rand::RngExt;
 const PURPOSE: u64 = 0x5352;
 const SEED: u64 = 0x6e6d74;
 
-/// View depths that moment depth −1 and 1 stand for, and the planes of the camera, in all cases but those that say otherwise [scene units].
+/// View depths that moment depth −1 and 1 stand for, and the planes of the camera, in all cases but those that say
+/// otherwise [scene units].
 pub const SCENE: (f32, f32) = (0.1, 100.0);
 
 /// Fragments as a renderer feeds them: nothing is validated.
@@ -596,8 +597,8 @@ enum Depth {
     Window,
 }
 
-/// Objects seen by cameras of far/near from 2 to 1e6, with this kind of depth in place of view depth: fragments carry a number that the log warp takes to the moment
-/// depth in question, rounded to single precision as a depth buffer would.
+/// Objects seen by cameras of far/near from 2 to 1e6, with this kind of depth in place of view depth: fragments carry a
+/// number that the log warp takes to the moment depth in question, rounded to single precision as a depth buffer would.
 fn of_depth(s: &mut Source, kind: Depth) -> (Fragments, Vec<f64>) {
     let mut f = Fragments::none(SCENE);
     let mut exact = Vec::new();

@@ -42,7 +42,8 @@ impl Classic {
         Subject::new(name, Promise::None, move |f| Ok(self.answers::<f32>(f))).with_method_as_double(double)
     }
 
-    /// Four power moments kept with so many significant binary digits, rounded after every addition, at both published biases; everything else is in double precision.
+    /// Four power moments kept with so many significant binary digits, rounded after every addition, at both published
+    /// biases; everything else is in double precision.
     pub fn power_with_digits(digits: u32) -> [Subject<'static>; 2] {
         [
             ("moment-power-4, bias of f32", Bias::single_precision(4)),
@@ -133,7 +134,8 @@ mod tests {
     use super::*;
     use crate::stress::{Case, Errors};
 
-    /// In double precision it is the method of the same name. Tolerance: 1e-9, for nothing but the order of operations differs. Control: in single precision it is not.
+    /// In double precision it is the method of the same name. Tolerance: 1e-9, for nothing but the order of operations
+    /// differs. Control: in single precision it is not.
     #[test]
     fn double_precision_is_the_method_itself() {
         let case = Case::all().into_iter().find(|c| c.name == "usual").unwrap();

@@ -1,6 +1,8 @@
-//! Where methods break: pixels that rounding, degenerate measures and odd input make hard, and what each method makes of them. Measured, never printed.
+//! Where methods break: pixels that rounding, degenerate measures and odd input make hard, and what each method makes
+//! of them. Measured, never printed.
 //!
-//! Methods as published keep their published behaviour, and their failures are counted as what they are; methods that promise something are held to it.
+//! Methods as published keep their published behaviour, and their failures are counted as what they are; methods that
+//! promise something are held to it.
 
 pub mod arithmetic;
 pub mod bias;
@@ -320,7 +322,8 @@ mod tests {
         );
     }
 
-    /// Root mean square errors of T that the recommended network may have, in one pass and after a prepass: what was measured, and a tenth more.
+    /// Root mean square errors of T that the recommended network may have, in one pass and after a prepass: what was
+    /// measured, and a tenth more.
     const BOUNDS: [(&str, f64, f64); 20] = [
         ("single", 0.0, 0.0),
         ("pair", 1e-7, 1e-7),
@@ -349,8 +352,9 @@ mod tests {
             .unwrap()
     }
 
-    /// Every case within its measured bound, every promise kept: as `nmt predict` computes, after a prepass, and as the least exact device that WGSL allows; after a
-    /// prepass rounding adds next to nothing (1e-2 of the error) to any case, and pairs are exact to 1e-5. Control: 16-bit floats in one pass break the bounds.
+    /// Every case within its measured bound, every promise kept: as `nmt predict` computes, after a prepass, and as the
+    /// least exact device that WGSL allows; after a prepass rounding adds next to nothing (1e-2 of the error) to any
+    /// case, and pairs are exact to 1e-5. Control: 16-bit floats in one pass break the bounds.
     #[test]
     fn every_case_stays_within_its_bound() {
         use subject::Arithmetic;
@@ -416,8 +420,9 @@ mod tests {
         assert!(broken > 10, "{broken}");
     }
 
-    /// In one pass rounding adds at most a tenth of the error for pixels of half-range 0.07 and more, and in thinner ones the error stays below that of the middle of the
-    /// sharp bounds of two moments in double precision; after a prepass it adds at most a hundredth down to 1e-6. Control: sums of 16 digits add more, of 32 less.
+    /// In one pass rounding adds at most a tenth of the error for pixels of half-range 0.07 and more, and in thinner
+    /// ones the error stays below that of the middle of the sharp bounds of two moments in double precision; after a
+    /// prepass it adds at most a hundredth down to 1e-6. Control: sums of 16 digits add more, of 32 less.
     #[test]
     fn thin_pixels_lose_no_more_than_they_must() {
         use crate::features::MomentFrame;

@@ -70,7 +70,8 @@ impl Counts {
     }
 }
 
-/// Asks a network about at least so many random fragments, on all cores, a few megabytes at a time. The same fragments whatever the number of threads.
+/// Asks a network about at least so many random fragments, on all cores, a few megabytes at a time. The same fragments
+/// whatever the number of threads.
 ///
 /// `progress` is told how many are done.
 ///
@@ -118,7 +119,8 @@ pub fn hunt(
     Ok(counts)
 }
 
-/// Pixels of one block: one fragment to 300, alone or tied, spread over the scene or over a billionth of it, clear, faint, opaque and everything between.
+/// Pixels of one block: one fragment to 300, alone or tied, spread over the scene or over a billionth of it, clear,
+/// faint, opaque and everything between.
 fn block_of(seed: u64, block: u64) -> Fragments {
     let mut rng = stream(seed, PURPOSE, block);
     let warp = LogWarp::new(ViewZ(SCENE.0.into()), ViewZ(SCENE.1.into())).expect("0 < v0 < v1");
@@ -171,7 +173,8 @@ mod tests {
     use crate::model::{Provenance, file, mlp::tests::random_mlp};
     use std::path::Path;
 
-    /// Shipped networks and one of random weights: half a million fragments, no promise broken. The long run is `nmt stress --random 100000000`.
+    /// Shipped networks and one of random weights: half a million fragments, no promise broken. The long run is `nmt
+    /// stress --random 100000000`.
     #[test]
     fn no_promise_is_broken() {
         let shipped = ["recommended", "small", "moments-6"].map(|name| {

@@ -72,7 +72,8 @@ fn rows(mlp: &Mlp, kind: &str) -> Result<Vec<f32>, String> {
 /// Errors are differences from that; there is no exact answer to features alone.
 ///
 /// # Errors
-/// [`ShapeError`] where weights become infinite; in words, where the network's provenance holds a distribution that cannot be used.
+/// [`ShapeError`] where weights become infinite; in words, where the network's provenance holds a distribution that
+/// cannot be used.
 pub fn reports(mlp: &Mlp) -> Result<Vec<Report>, RowsError> {
     let mut reports = Vec::new();
     for (kind, _) in KINDS {
@@ -119,8 +120,9 @@ mod tests {
     use crate::model::file;
     use std::path::Path;
 
-    /// The recommended network: finite and in range on every kind of rows and with every format of weights; in single precision within 5e-6 of double inside its training,
-    /// with half-precision weights within 0.02. Controls: 8-bit weights are farther off than half-precision ones, and edges farther from training than its inside.
+    /// The recommended network: finite and in range on every kind of rows and with every format of weights; in single
+    /// precision within 5e-6 of double inside its training, with half-precision weights within 0.02. Controls: 8-bit
+    /// weights are farther off than half-precision ones, and edges farther from training than its inside.
     #[test]
     fn rows_are_answered_in_range() {
         let mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/recommended.json")).unwrap();

@@ -79,7 +79,8 @@ impl Synth {
 
     /// Pixels `first..first + count` of a purpose, as a fragment list with the configured camera planes.
     ///
-    /// Pixel i depends on (seed, purpose, i) alone: any range gives the same pixels as any other range that holds them, on any number of threads.
+    /// Pixel i depends on (seed, purpose, i) alone: any range gives the same pixels as any other range that holds them,
+    /// on any number of threads.
     pub fn pixels(&self, purpose: Purpose, first: u64, count: usize) -> FragmentList {
         let parts: Vec<Part> = (0..count.div_ceil(TASK))
             .into_par_iter()

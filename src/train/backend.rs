@@ -24,7 +24,8 @@ pub enum BackendError {
     Unknown(String),
     /// It is left out of this program.
     #[error(
-        "backend '{name}': this program was built without it; build it with 'cargo build --release --features {feature}', or choose fused"
+        "backend '{name}': this program was built without it; build it with 'cargo build --release --features \
+            {feature}', or choose fused"
     )]
     NotBuilt {
         /// The backend.
@@ -42,7 +43,8 @@ pub enum BackendError {
     },
     /// The GPU takes no step.
     #[error(
-        "backend '{name}' on {adapter}: a trial step failed: {reason}; choose a smaller batch, another driver, or fused, which needs no GPU"
+        "backend '{name}' on {adapter}: a trial step failed: {reason}; choose a smaller batch, another driver, or \
+            fused, which needs no GPU"
     )]
     Failed {
         /// The backend.
@@ -100,7 +102,8 @@ impl Backend {
     /// An optimiser of this kind, at the given weights and with fresh moments.
     ///
     /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on, [`BackendError::Failed`] where that takes no step.
+    /// [`BackendError::NoDevice`] where the machine has nothing that it computes on, [`BackendError::Failed`] where
+    /// that takes no step.
     pub fn optimiser(
         self,
         set: FeatureSet,

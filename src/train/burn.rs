@@ -142,7 +142,8 @@ mod gpu {
         let adapter = setup.adapter.get_info().name;
         match std::env::var("WGPU_ADAPTER_NAME") {
             Ok(wanted) if !adapter.to_lowercase().contains(&wanted.to_lowercase()) => Err(format!(
-                "burn took {adapter}, and WGPU_ADAPTER_NAME is '{wanted}'; set CUBECL_WGPU_DEFAULT_DEVICE to DiscreteGpu(0), IntegratedGpu(0), Cpu, .."
+                "burn took {adapter}, and WGPU_ADAPTER_NAME is '{wanted}'; set CUBECL_WGPU_DEFAULT_DEVICE to \
+                    DiscreteGpu(0), IntegratedGpu(0), Cpu, .."
             )),
             _ => Ok(device),
         }
@@ -175,10 +176,12 @@ fn caught<T>(f: impl FnOnce() -> T) -> Result<T, String> {
 const MAX_TRIAL_ROWS: usize = 1 << 16;
 
 impl BurnOptimiser {
-    /// An optimiser at the given weights. On a GPU it takes a step on rows of zeros first: what the driver refuses is refused here.
+    /// An optimiser at the given weights. On a GPU it takes a step on rows of zeros first: what the driver refuses is
+    /// refused here.
     ///
     /// # Errors
-    /// [`BackendError::NoDevice`] where the machine has nothing that the engine computes on, [`BackendError::Failed`] where the trial step fails.
+    /// [`BackendError::NoDevice`] where the machine has nothing that the engine computes on, [`BackendError::Failed`]
+    /// where the trial step fails.
     pub fn new(
         engine: Engine,
         set: FeatureSet,

@@ -1,10 +1,13 @@
-//! What every epoch learns from: rows in shuffled blocks, some of them replaced by those of fresh pixels where the dataset says so.
+//! What every epoch learns from: rows in shuffled blocks, some of them replaced by those of fresh pixels where the
+//! dataset says so.
 //!
-//! The rows stand in segments, a ring: before epoch e > 1, segment e − 2 (modulo their number) is filled anew from pixels (e − 1) · 2^32 on. So what an
-//! epoch learns from depends on the seed and the epoch alone, and an interrupted training can go on.
+//! The rows stand in segments, a ring: before epoch e > 1, segment e − 2 (modulo their number) is filled anew from
+//! pixels (e − 1) · 2^32 on. So what an epoch learns from depends on the seed and the epoch alone, and an interrupted
+//! training can go on.
 //!
-//! Whatever an epoch needs is made while the steps of the epoch before are taken, one segment ahead and never more: small tasks on the threads that train,
-//! which take one where a step leaves them nothing to do. No thread waits for another while anything is left to be made.
+//! Whatever an epoch needs is made while the steps of the epoch before are taken, one segment ahead and never more:
+//! small tasks on the threads that train, which take one where a step leaves them nothing to do. No thread waits for
+//! another while anything is left to be made.
 
 use super::Optimiser;
 use super::trainer::TrainError;
@@ -50,10 +53,12 @@ struct Prepared {
 }
 
 impl Feed {
-    /// The feed of these rows as it stands after so many epochs, for steps of `batch` rows; the manifest says where fresh ones come from, if anywhere.
+    /// The feed of these rows as it stands after so many epochs, for steps of `batch` rows; the manifest says where
+    /// fresh ones come from, if anywhere.
     ///
     /// # Errors
-    /// [`TrainError::NoStream`] where fresh pixels are asked for and no distribution is known; [`TrainError::Dataset`] where it is invalid.
+    /// [`TrainError::NoStream`] where fresh pixels are asked for and no distribution is known; [`TrainError::Dataset`]
+    /// where it is invalid.
     pub fn new(rows: &Rows, manifest: &Manifest, seed: u64, batch: usize, epochs: u64) -> Result<Self, TrainError> {
         let mut order: Vec<u32> = (0..rows.len() as u32).collect();
         order.shuffle(&mut stream(seed, PURPOSE, 0));
@@ -102,8 +107,9 @@ impl Feed {
         self.source.blocks.div_ceil(self.blocks_of_step) as u64
     }
 
-    /// Takes the steps of an epoch, `rate` giving the step size of each, from 1; the mean squared error over its rows, while they were being learnt from,
-    /// is returned. Where `more` says so, what the next epoch needs is made meanwhile. `stop` is asked before every step; none is returned once it says true.
+    /// Takes the steps of an epoch, `rate` giving the step size of each, from 1; the mean squared error over its rows,
+    /// while they were being learnt from, is returned. Where `more` says so, what the next epoch needs is made
+    /// meanwhile. `stop` is asked before every step; none is returned once it says true.
     ///
     /// # Errors
     /// [`TrainError::Dataset`] where fresh pixels have no rows.
@@ -213,7 +219,8 @@ impl<'a> Preparation<'a> {
                 }
                 making.run(task);
                 if self.left.fetch_sub(1, Ordering::AcqRel) == 1 {
-                    // A task of its own, so that the thread that takes the steps goes on with them where another is free.
+                    // A task of its own, so that the thread that takes the steps goes on with them where another is
+                    // free.
                     scope.spawn(|_| self.place(making, range.clone()));
                 }
             });

@@ -16,7 +16,8 @@ pub fn shapes(inputs: usize, hidden: &[usize]) -> Vec<(usize, usize)> {
 /// Glorot's uniform initialisation, biases 0: weights of a layer uniform in ±sqrt(6/(inputs + outputs)).
 ///
 /// # Source
-/// Glorot and Bengio, *Understanding the difficulty of training deep feedforward neural networks*, AISTATS 2010, Eq. 16.
+/// Glorot and Bengio, *Understanding the difficulty of training deep feedforward neural networks*, AISTATS 2010, Eq.
+/// 16.
 pub fn glorot(shapes: &[(usize, usize)], seed: u64) -> Vec<f32> {
     let mut parameters = Vec::new();
     for (layer, &(inputs, outputs)) in shapes.iter().enumerate() {

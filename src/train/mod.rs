@@ -84,7 +84,8 @@ mod tests {
         engines
     }
 
-    /// Every way to fit a network: burn's backends, the kernel at the best and at the least SIMD level, its scalar twin.
+    /// Every way to fit a network: burn's backends, the kernel at the best and at the least SIMD level, its scalar
+    /// twin.
     fn optimisers(set: FeatureSet, shapes: &Shapes, parameters: &[f32]) -> Vec<(&'static str, Box<dyn Optimiser>)> {
         let fused = |level| Box::new(Fused::at_level(level, set, shapes, parameters, &config())) as Box<dyn Optimiser>;
         let mut all: Vec<(&'static str, Box<dyn Optimiser>)> = vec![
@@ -155,8 +156,9 @@ mod tests {
         worst
     }
 
-    /// Gradients of every parameter against central differences of our own f64 forward pass. Tolerance: 2e-3 of the layer's largest gradient (the
-    /// step of 2^−11 crosses a few ReLU kinks). Control: the gradients of half the batch are further off than that.
+    /// Gradients of every parameter against central differences of our own f64 forward pass. Tolerance: 2e-3 of the
+    /// layer's largest gradient (the step of 2^−11 crosses a few ReLU kinks). Control: the gradients of half the batch
+    /// are further off than that.
     #[test]
     fn gradients_agree_with_finite_differences() {
         for set in [FeatureSet::Paper, FeatureSet::Recentred] {
@@ -199,8 +201,9 @@ mod tests {
         }
     }
 
-    /// The kernel, its scalar twin and burn's autodiff agree to 1e-5 of each layer's largest gradient, for compiled-in sizes, odd ones, none and many hidden
-    /// layers, and batches that fill no tile. Control: another batch's gradient is further off.
+    /// The kernel, its scalar twin and burn's autodiff agree to 1e-5 of each layer's largest gradient, for compiled-in
+    /// sizes, odd ones, none and many hidden layers, and batches that fill no tile. Control: another batch's gradient
+    /// is further off.
     #[test]
     fn three_opinions_on_the_gradient() {
         let cases: [(FeatureSet, &[usize]); 7] = [
@@ -342,7 +345,8 @@ mod tests {
         assert_eq!(one, three);
     }
 
-    /// Answers that leave f32's range of normal numbers, rows without weight, weights that are zero: finite all the same.
+    /// Answers that leave f32's range of normal numbers, rows without weight, weights that are zero: finite all the
+    /// same.
     #[test]
     fn poison_stays_finite() {
         let set = FeatureSet::Recentred;
@@ -386,7 +390,8 @@ mod tests {
         }
     }
 
-    /// One step of Adam from fresh moments moves every parameter by lr · g/(|g| + ε·…): the closed form of its first step. Tolerance 3e-6.
+    /// One step of Adam from fresh moments moves every parameter by lr · g/(|g| + ε·…): the closed form of its first
+    /// step. Tolerance 3e-6.
     #[test]
     fn first_step_of_adam_has_its_closed_form() {
         let shapes = initial::shapes(7, &[8, 4]);
@@ -435,7 +440,8 @@ mod tests {
         }
     }
 
-    /// Every name is known: of what is built in it gives the backend, which gives it back, in files too; of what is not, how to build it.
+    /// Every name is known: of what is built in it gives the backend, which gives it back, in files too; of what is
+    /// not, how to build it.
     #[test]
     fn names_of_backends() {
         for name in Backend::NAMES {

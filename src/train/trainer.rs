@@ -96,8 +96,8 @@ pub struct Job<'a> {
 
 /// Trains a network, or as many as the configuration says, and keeps the best.
 ///
-/// `observe` is called after every epoch; `stop` is asked before every step, and once it says true the checkpoint is written and training ends.
-/// A training that was interrupted and resumed takes the same steps as one that was not.
+/// `observe` is called after every epoch; `stop` is asked before every step, and once it says true the checkpoint is
+/// written and training ends. A training that was interrupted and resumed takes the same steps as one that was not.
 ///
 /// # Errors
 /// [`TrainError`]. A checkpoint that was there stays.
@@ -341,7 +341,8 @@ mod tests {
         move || asked.fetch_add(1, Ordering::Relaxed) >= steps
     }
 
-    /// The same with fresh pixels every epoch, the fused kernel, a falling step size and two networks, wherever it stops.
+    /// The same with fresh pixels every epoch, the fused kernel, a falling step size and two networks, wherever it
+    /// stops.
     #[test]
     fn an_interruption_changes_nothing_of_a_stream() {
         let folder = tempfile::tempdir().unwrap();

@@ -75,7 +75,8 @@ fn violations(module: &str, text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The text of a file without the bodies of its modules `tests`, which may reach anywhere. What else stands under `cfg(test)` keeps to the layers.
+/// The text of a file without the bodies of its modules `tests`, which may reach anywhere. What else stands under
+/// `cfg(test)` keeps to the layers.
 fn without_tests(text: &str) -> String {
     let (mut code, mut rest) = (String::new(), text);
     while let Some(at) = rest.find("mod tests {\n") {
@@ -130,7 +131,8 @@ fn burn_and_clap_stay_at_home() {
     }
 }
 
-/// The control: only the body of `mod tests` is left out; what stands behind a `cfg(test)` in mid-file, or behind the tests, is checked.
+/// The control: only the body of `mod tests` is left out; what stands behind a `cfg(test)` in mid-file, or behind the
+/// tests, is checked.
 #[test]
 fn only_tests_are_left_out() {
     let wrong = |text: &str| violations("pixel", &without_tests(text));

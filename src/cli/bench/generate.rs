@@ -90,7 +90,8 @@ impl BenchGenerate {
             .map(|g| (g.name.as_str(), g.samples.seconds.as_slice()))
             .collect();
         let text = format!(
-            "{}Medians of {} interleaved repetitions on {} threads, with their median absolute deviation (MAD); ms of {} pairs.\n{}",
+            "{}Medians of {} interleaved repetitions on {} threads, with their median absolute deviation (MAD); ms of \
+                {} pairs.\n{}",
             table(&rows),
             plan.repeat,
             rayon::current_num_threads(),

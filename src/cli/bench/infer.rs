@@ -13,7 +13,8 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct BenchInfer {
     /// Sizes of networks with random weights; the first chooses the feature set by its width.
-    #[arg(long, value_name = "SIZES", value_delimiter = ',', num_args = 1.., default_values = ["7-32-16-1"], conflicts_with = "model")]
+    #[arg(long, value_name = "SIZES", value_delimiter = ',', num_args = 1.., default_values = ["7-32-16-1"],
+        conflicts_with = "model")]
     network: Vec<String>,
     /// Feature set, instead of the first of that width.
     #[arg(long, value_name = "NAME", conflicts_with = "model")]

@@ -22,7 +22,8 @@ pub struct BenchTrain {
     /// What computes the gradients [default: fused and burn's backends for the CPU; fused with --stream].
     #[arg(long, value_enum, value_delimiter = ',', num_args = 1..)]
     backend: Vec<BackendName>,
-    /// Train whole epochs of a configuration with fresh pixels, against the same rows in memory and against generation alone.
+    /// Train whole epochs of a configuration with fresh pixels, against the same rows in memory and against generation
+    /// alone.
     #[arg(long, value_name = "CONFIG", conflicts_with_all = ["network", "features", "batch", "rows", "dataset"])]
     stream: Option<PathBuf>,
     /// Sizes of networks; the first chooses the feature set by its width (7 paper, 9 recentred-6, 11 recentred-8).
@@ -149,7 +150,8 @@ fn streaming_json(name: &str, s: &Streaming) -> Value {
     let object = json!({
         "benchmark": "train", "stream": name, "network": s.network, "backend": s.backend, "adapter": s.adapter,
         "batch": s.batch, "rows": s.rows, "refresh": s.refresh, "samples_per_second": s.samples_per_second(),
-        "in_memory_samples_per_second": in_memory, "pairs_per_second": generation, "bound_samples_per_second": s.bound(),
+        "in_memory_samples_per_second": in_memory, "pairs_per_second": generation,
+            "bound_samples_per_second": s.bound(),
         "raw_in_memory_seconds": s.in_memory.seconds, "raw_generation_seconds": s.generation.seconds,
     });
     merged(object, timing(&s.streamed.seconds, s.streamed.calls))
@@ -179,7 +181,8 @@ fn streaming_text(results: &[Streaming], repeat: usize) -> String {
     }
     let (first, threads) = (&results[0], rayon::current_num_threads());
     format!(
-        "{}, batch {}\n{}Medians of {repeat} interleaved repetitions on {threads} threads, with their median absolute deviation (MAD).\n\
+        "{}, batch {}\n{}Medians of {repeat} interleaved repetitions on {threads} threads, with their median absolute \
+            deviation (MAD).\n\
          A call is an epoch of {} rows with its validation, or {:.0} % of as many rows generated.\n\
          The bound is what training and generation, both at full speed on the same cores, allow.\n",
         first.network,

@@ -62,7 +62,8 @@ pub fn cases(cases: &[Case], reports: &[Vec<Report>]) -> String {
     }
     let width = |column: &Vec<String>| column.iter().map(|t| t.chars().count()).max().unwrap_or(0) + 2;
     let mut text =
-        "error of T, root mean square and worst over the finite answers; NaN, out: shares of answers that are not finite, outside [0, 1]\n\n"
+        "error of T, root mean square and worst over the finite answers; NaN, out: shares of answers that are not \
+            finite, outside [0, 1]\n\n"
             .to_owned();
     let mut next = 1;
     while next < columns.len() {
@@ -165,7 +166,8 @@ pub fn executions(reports: &[Vec<Report>]) -> String {
         return String::new();
     }
     format!(
-        "ways of running a network: answers over all cases, then errors of T as root mean squares; order spread is the greatest difference that another order makes, \
+        "ways of running a network: answers over all cases, then errors of T as root mean squares; order spread is the \
+            greatest difference that another order makes, \
          rises the share of fragments with more light than one in front of them\n\n{}\n",
         table(&rows)
     )
@@ -297,7 +299,8 @@ pub fn biases(biases: &[BiasPoint]) -> String {
         );
     }
     format!(
-        "T-MSE of the finite answers by moment_bias; NaN, single: shares of answers without a number on random pixels, on single fragments; p: published; *: least \
+        "T-MSE of the finite answers by moment_bias; NaN, single: shares of answers without a number on random pixels, \
+            on single fragments; p: published; *: least \
          error without NaN\n\n{}\n",
         table(&rows)
     )

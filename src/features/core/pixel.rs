@@ -281,32 +281,31 @@ mod tests {
         errors.fold(0.0, |most, e| if e.is_nan() { f64::INFINITY } else { most.max(e) })
     }
 
-    /// As many fragments as the core holds, and one more of which each fragment sees the tail: exact but for rounding,
-    /// 2e-6,
-    /// near-opaque ones among them. One fragment of tail: 1e-4 at worst where it is faint beside A = 10; two of them,
-    /// with three moments, in the mean square. Control: a pixel's answers for the fragment beside.
+    /// As many fragments as the core holds, near-opaque ones among them: exact but for rounding, 2e-6. One and two
+    /// fragments of tail, with absorbances from 1e-3 beside up to 10: in the mean square. Control: a pixel's answers for
+    /// the fragment beside.
     #[test]
     fn cores_and_short_tails_are_exact() {
         let mut rng = stream(1, 121, 0);
         for round in 0..4000 {
             let heavy = round % 9;
-            let n = 1 + round % (heavy + 3);
+            let n = 1 + round % (heavy + 2);
             let found = worst::<3>(heavy, n, &mut rng);
             assert!(found <= 2e-6, "{n} fragments, {heavy} heavy: {found}");
         }
         let mut squares = [0.0, 0.0];
         for round in 0..8000 {
             let heavy = round % 5;
-            let one = worst::<5>(heavy, heavy + 4, &mut rng);
+            let one = worst::<5>(heavy, heavy + 3, &mut rng);
             squares[0] += one * one / 8000.0;
-            let two = worst::<5>(heavy, heavy + 5, &mut rng);
+            let two = worst::<5>(heavy, heavy + 4, &mut rng);
             squares[1] += two * two / 8000.0;
         }
         println!(
             "mean square of a pixel's worst error: one {:.1e}, two {:.1e}",
             squares[0], squares[1]
         );
-        assert!(squares[0] <= 1e-5 && squares[1] <= 1e-3, "{squares:?}");
+        assert!(squares[0] <= 1e-7 && squares[1] <= 1e-4, "{squares:?}");
         let set = CoreSet::new(2, 2);
         let (view_z, alpha) = random(&mut rng, 5, [1.0, 8.0]);
         let all = answers::<3>(&set, &view_z, &alpha);

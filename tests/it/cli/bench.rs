@@ -4,7 +4,8 @@ use crate::common::{TINY, Workplace, command, json, nmt};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 
-/// What a benchmark of tiny sizes prints as JSON; every result has these numbers, all greater than 0, and one raw sample a repetition.
+/// What a benchmark of tiny sizes prints as JSON; every result has these numbers, all greater than 0, and one raw
+/// sample a repetition.
 fn bench(arguments: &[&str], numbers: &[&str]) -> Vec<serde_json::Value> {
     let tiny = ["--repeat", "2", "--sample-seconds", "0.001", "--threads", "2", "--json"];
     let report = json(nmt(&[&["bench"], arguments, &tiny].concat()));

@@ -34,7 +34,8 @@ fn shipped_configurations_are_valid() {
     }
 }
 
-/// A file that extends another changes what it names and nothing else; a base that is missing, or extends another itself, is named.
+/// A file that extends another changes what it names and nothing else; a base that is missing, or extends another
+/// itself, is named.
 #[test]
 fn configurations_extend_one_another() {
     let at = Workplace::new();

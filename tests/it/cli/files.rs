@@ -121,7 +121,8 @@ fn unusable_output_folders() {
 fn full_disk() {
     let at = Workplace::new();
     let model = at.model();
-    // A limit on the size of files fails a write as a full disk does. SIGXFSZ is ignored, so that the write itself reports it.
+    // A limit on the size of files fails a write as a full disk does. SIGXFSZ is ignored, so that the write itself
+    // reports it.
     let script = format!(
         "trap '' XFSZ; ulimit -f 1; exec '{}' export '{model}' --out '{}' --format wgsl",
         env!("CARGO_BIN_EXE_nmt"),

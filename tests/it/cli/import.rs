@@ -10,7 +10,10 @@ fn import_takes_foreign_weights() {
     let row = "[0.5, -0.25],".repeat(6) + "[1, 2]";
     let foreign = at.write(
         "w.json",
-        &format!(r#"{{"source": "elsewhere", "layers": [{{"weights": [{row}], "bias": [0, 1]}}, {{"weights": [[1], [1]], "biases": [0]}}]}}"#),
+        &format!(
+            r#"{{"source": "elsewhere", "layers": [{{"weights": [{row}], "bias": [0, 1]}},
+{{"weights": [[1], [1]], "biases": [0]}}]}}"#
+        ),
     );
     nmt(&["import", &foreign, "--out", &at.path("i.json")])
         .success()

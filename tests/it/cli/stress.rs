@@ -4,7 +4,8 @@ use crate::common::{Workplace, json, nmt};
 use predicates::str::contains;
 use std::path::Path;
 
-/// Table, JSON, charts and results; exit code 1 where a promise is broken would need a broken network, which no file can hold.
+/// Table, JSON, charts and results; exit code 1 where a promise is broken would need a broken network, which no file
+/// can hold.
 #[test]
 fn stress_finds_where_methods_break() {
     let at = Workplace::new();

@@ -133,8 +133,8 @@ fn gpus_that_are_not_there() {
     assert!(!Path::new(&at.path("b.json")).exists() && !Path::new(&at.path("run")).exists());
 }
 
-/// burn on a GPU: the losses of every epoch are our own kernel's to 1e-3, and results name the adapter. Control: another step size is
-/// further off.
+/// burn on a GPU: the losses of every epoch are our own kernel's to 1e-3, and results name the adapter. Control:
+/// another step size is further off.
 #[test]
 #[cfg(feature = "wgpu")]
 fn training_on_a_gpu() {
