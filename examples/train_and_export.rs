@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         return Err("nobody interrupts this training".into());
     };
     println!("{}: least validation loss {best:.3e}", mlp.shape());
-    for path in export::write(&mlp, out, &[Format::Wgsl, Format::Onnx], Replace::Yes)? {
+    for path in export::write(&mlp, out, &[Format::WGSL, Format::ONNX], None, Replace::Yes)? {
         println!("{}", path.display());
     }
     Ok(())

@@ -40,6 +40,7 @@ pub mod pixel;
 pub mod profile;
 pub mod report;
 pub mod scene;
+pub mod shader;
 pub mod stress;
 pub mod synth;
 pub mod train;

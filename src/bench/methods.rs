@@ -3,13 +3,13 @@
 use super::{BenchError, Plan, Summary, calls_that_fill};
 use crate::evaluate::order;
 use crate::evaluate::{EvaluateError, Truth};
-use crate::export::Format;
+use crate::export::{Format, Precision};
 use crate::features::FeatureSet;
-use crate::gpu::list::{DeviceList, Passes};
-use crate::gpu::method::Composite;
-use crate::gpu::{Gpu, GpuError, MethodShader};
+use crate::gpu::list::Passes;
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
 use crate::oit::neural::{Neural, Skip};
+use crate::oit::shader::Composite;
 use crate::oit::{self, Accumulated, Capabilities, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
@@ -113,8 +113,7 @@ pub struct Cost {
     pub both: Vec<f64>,
     /// Seconds of either pass likewise; none where they are not apart, as in networks on the CPU.
     pub passes: Option<Passed>,
-    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see
-    /// [`Table::front_is_of`].
+    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see [`Table::time`].
     pub on_front: bool,
 }
 
@@ -128,24 +127,19 @@ pub struct Passed {
 }
 
 impl Cost {
-    /// Median of pass 2, or of both passes where those are not apart \[s\].
-    pub fn weights_or_both(&self) -> f64 {
-        Summary::of(self.passes.as_ref().map_or(&self.both, |p| &p.weights)).median
-    }
-
     /// The error that the front is about: the image's where there is one, else that of T.
     pub fn error(&self) -> Option<f64> {
         self.image_mse.or(self.transmittance_mse)
     }
 }
 
-/// Which time the Pareto front is of.
+/// What the methods of a table ran on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FrontTime {
-    /// Pass 2.
-    Weights,
-    /// Both passes.
-    Both,
+pub enum Processor {
+    /// The CPU.
+    Cpu,
+    /// A GPU, in compute passes.
+    Gpu,
 }
 
 /// All methods of one adapter; figures of two adapters are not to be compared.
@@ -155,8 +149,8 @@ pub struct Table {
     pub adapter: String,
     /// Whose clock took the times.
     pub clock: Clock,
-    /// Which time the front is of, against [`Cost::error`].
-    pub front_is_of: FrontTime,
+    /// What they ran on.
+    pub processor: Processor,
     /// Rows, the fastest first.
     pub costs: Vec<Cost>,
     /// What was not measured.
@@ -185,12 +179,10 @@ impl LeftOut {
 }
 
 impl Table {
-    /// The time of a row that the front is about \[s\].
+    /// The time of a row that the front is about, against [`Cost::error`]: both passes, since what one method keeps in pass 1
+    /// another computes in pass 2 \[s\].
     pub fn time(&self, cost: &Cost) -> f64 {
-        match self.front_is_of {
-            FrontTime::Weights => cost.weights_or_both(),
-            FrontTime::Both => Summary::of(&cost.both).median,
-        }
+        Summary::of(&cost.both).median
     }
 
     fn finish(mut self) -> Self {
@@ -354,7 +346,7 @@ impl Setting<'_> {
         Ok(Table {
             adapter: adapter.to_owned(),
             clock: Clock::Wall,
-            front_is_of: FrontTime::Both,
+            processor: Processor::Cpu,
             costs,
             left_out,
         }
@@ -418,7 +410,7 @@ impl Setting<'_> {
         Ok(Table {
             adapter,
             clock,
-            front_is_of: FrontTime::Weights,
+            processor: Processor::Gpu,
             costs,
             left_out,
         }
@@ -444,7 +436,7 @@ impl Setting<'_> {
         let mut shaders = vec![(MethodShader::empty(NONE), none)];
         for candidate in candidates {
             match candidate {
-                Candidate::Method(method) => match MethodShader::classic(&method.name()) {
+                Candidate::Method(method) => match method.shader() {
                     Some(shader) => {
                         let (capabilities, transmittance) = (method.capabilities(), method.weights_are_transmittance());
                         shaders.push((
@@ -552,7 +544,7 @@ impl Setting<'_> {
 }
 
 fn is_half(format: Format) -> bool {
-    matches!(format, Format::WgslF16 | Format::WgslPlainF16)
+    format.precision() == Precision::F16
 }
 
 /// What a shader does not say of its method.
@@ -729,7 +721,7 @@ mod tests {
             skip: Skip::Exact,
         };
         let table = setting
-            .on_gpu(gpu, &candidates(), &[Format::Wgsl, Format::WgslPlain], &|_| {})
+            .on_gpu(gpu, &candidates(), &[Format::WGSL, Format::WGSL_PLAIN], &|_| {})
             .unwrap();
         let names: Vec<&str> = table.costs.iter().map(|c| c.method.as_str()).collect();
         assert!(

@@ -3,11 +3,12 @@
 
 use crate::evaluate::gpu::channel_differences;
 use crate::evaluate::{EvaluateError, Image, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, TargetPrecision};
+use crate::gpu::pipeline::Pipeline;
 use crate::gpu::tiles::{PixelCounts, TilePasses};
-use crate::gpu::{Gpu, MethodShader};
+use crate::gpu::{DeviceList, Gpu, MethodShader};
 use crate::oit::neural::Skip;
 use crate::pixel::FragmentList;
+use crate::shader::passes::TargetPrecision;
 
 /// How a frame is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,16 +104,12 @@ pub fn frames(
     progress: &dyn Fn(u64),
 ) -> Result<Frames, EvaluateError> {
     let background = [1.0; 3];
-    let drawing = if gpu.blends_f32() {
-        Some(Drawing::new(gpu, list)?)
-    } else {
-        None
-    };
-    let drawn = drawing
-        .as_ref()
-        .map(|drawing| Pipeline::new(gpu, drawing, method, range, background, TargetPrecision::Full))
+    let on_device = DeviceList::new(gpu, list)?;
+    let drawn = gpu
+        .blends_f32()
+        .then(|| Pipeline::new(gpu, &on_device, method, range, background, TargetPrecision::Full))
         .transpose()?;
-    let passes = TilePasses::new(gpu, list, method, range, background)?;
+    let passes = TilePasses::new(gpu, &on_device, method, range, background)?;
     let image = || {
         let (width, height) = list.size().expect("the passes have asked");
         Image::new(
@@ -192,7 +189,7 @@ mod tests {
             },
         )
         .unwrap();
-        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
+        let method = MethodShader::neural(&mlp, Format::WGSL).unwrap();
         let range = method.depth_range(&list, None, None).unwrap();
         let found = frames(
             gpu,

@@ -136,7 +136,12 @@ mod tests {
     use crate::numeric::rng::stream;
     use rand::RngExt;
 
-    const FORMATS: [Format; 4] = [Format::Hlsl, Format::HlslPlain, Format::HlslF16, Format::HlslPlainF16];
+    const FORMATS: [Format; 4] = [
+        Format::HLSL,
+        Format::HLSL_PLAIN,
+        Format::HLSL_F16,
+        Format::HLSL_PLAIN_F16,
+    ];
 
     fn source(mlp: &Mlp, format: Format) -> String {
         String::from_utf8(encode(mlp, format).unwrap()).unwrap()
@@ -153,8 +158,7 @@ mod tests {
             let mlp = random_mlp(hidden, 2);
             for format in FORMATS {
                 let text = source(&mlp, format);
-                let kind = format.kind().unwrap();
-                weights(kind, &constants(&text).unwrap(), &mlp)
+                weights(format, &constants(&text).unwrap(), &mlp)
                     .unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
                 literal_indices(&text).unwrap();
                 let last = mlp.layers().last().unwrap().weights[0];
@@ -164,7 +168,7 @@ mod tests {
                     1,
                 );
                 assert!(
-                    weights(kind, &constants(&changed).unwrap(), &mlp)
+                    weights(format, &constants(&changed).unwrap(), &mlp)
                         .unwrap_err()
                         .contains("the network has")
                 );
@@ -215,9 +219,9 @@ mod tests {
                     .call_rows(interpreter.function_like(ENTRY).unwrap(), &rows, 7)
                     .unwrap();
                 let (reference, bar) = match format {
-                    Format::HlslPlain => (&single, 0.0),
-                    Format::Hlsl => (&single, 2e-6),
-                    Format::HlslPlainF16 => (&halves, 0.0),
+                    Format::HLSL_PLAIN => (&single, 0.0),
+                    Format::HLSL => (&single, 2e-6),
+                    Format::HLSL_PLAIN_F16 => (&halves, 0.0),
                     _ => (&halves, 2e-2),
                 };
                 assert!(
@@ -285,7 +289,7 @@ mod tests {
                 }
             }
             let head = "StructuredBuffer<float> nmt_in;\nRWStructuredBuffer<float> nmt_out;\n[numthreads(1, 1, 1)]\nvoid probe() {\n";
-            let whole = format!("{}{head}{body}}}\n", source(&mlp, Format::Hlsl));
+            let whole = format!("{}{head}{body}}}\n", source(&mlp, Format::HLSL));
             if let Some(result) =
                 shader::glslang_hlsl(&whole, "probe", &tempfile::tempdir().unwrap().path().join("x.spv"))
             {
@@ -294,7 +298,7 @@ mod tests {
             let wgsl = to_wgsl(&slangc, &whole, "probe").unwrap_or_else(|e| panic!("{e}\n{whole}"));
             let (hlsl, _) = translate::parse_wgsl(&wgsl).unwrap_or_else(|e| panic!("{e}"));
             let hlsl = Interpreter::new(&hlsl);
-            let module = parse(Format::Wgsl, &source(&mlp, Format::Wgsl)).unwrap();
+            let module = parse(Format::WGSL, &source(&mlp, Format::WGSL)).unwrap();
             let twin = Interpreter::new(&module);
             let mut kinds = [0; 2];
             for round in 0..300 {

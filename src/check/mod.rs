@@ -3,6 +3,7 @@
 //! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
 //! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
 
+pub mod core;
 pub mod graph;
 pub mod half;
 pub mod hlsl;
@@ -12,8 +13,8 @@ pub mod rows;
 pub mod shader;
 pub mod translated;
 
-use crate::export::shader::{ENTRY, Language, PRUNED, Precision, half_bounds, half_limit, network_function};
-use crate::export::{Format, onnx as onnx_export, translate};
+use crate::export::shader::{ENTRY, PRUNED, half_bounds, half_limit, network_function};
+use crate::export::{Format, Precision, Prefix, Target, onnx as onnx_export, translate};
 use crate::features::FeatureSet;
 use crate::gpu::{Gpu, compute};
 use crate::model::simplify::{Pruned, fires, without_units};
@@ -311,7 +312,7 @@ impl Reference {
 
     /// Runs an export on all rows and compares.
     fn compare(&self, format: Format, tool: &'static str, run: impl Fn(&[f32]) -> Result<Vec<f32>, String>) -> Finding {
-        let precision = format.kind().map_or(Precision::F32, |kind| kind.precision);
+        let precision = format.precision();
         let mut numbers = Vec::new();
         let mut problems = Vec::new();
         for (rows, answers) in self.rows.iter().zip(&self.answers) {
@@ -489,7 +490,7 @@ impl<'a> Subject<'a> {
             Err(why) => return Finding::skipped(format, TOOL, QUESTION, why.clone()),
         };
         let gpu = on_gpu.gpu;
-        if format.kind().is_some_and(|kind| kind.precision == Precision::F16) && !gpu.has_f16() {
+        if format.precision() == Precision::F16 && !gpu.has_f16() {
             return Finding::skipped(format, TOOL, QUESTION, format!("{} has no f16 in shaders", gpu.name()));
         }
         let width = self.network.feature_set().width();
@@ -508,15 +509,30 @@ struct OnGpu {
     reference: Result<Reference, String>,
 }
 
+/// Shader source with the names that an export without a prefix has.
+fn without_prefix(format: Format, bytes: Vec<u8>) -> Vec<u8> {
+    if !matches!(
+        format.target(),
+        Target::Wgsl | Target::Glsl | Target::Hlsl | Target::Metal
+    ) {
+        return bytes;
+    }
+    let text = std::str::from_utf8(&bytes).ok();
+    match text.and_then(|text| Prefix::of_source(text).map(|prefix| prefix.undo(text))) {
+        Some(text) => text.into_bytes(),
+        None => bytes,
+    }
+}
+
 /// What an export says was taken out of the network.
 fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
-    let line = match format {
-        Format::Json => {
+    let line = match format.target() {
+        Target::Json => {
             // What is no model file is found further down.
             let mlp = file::from_json(bytes, Path::new("the export"));
             return Ok(mlp.ok().and_then(|mlp| mlp.provenance.pruned));
         }
-        Format::Onnx => {
+        Target::Onnx => {
             let properties = onnx_export::decode(bytes)
                 .map(|model| model.metadata_props)
                 .unwrap_or_default();
@@ -526,7 +542,7 @@ fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
                 .map(|p| p.value)
         }
         _ => {
-            let spirv = matches!(format, Format::Spirv | Format::SpirvF16);
+            let spirv = format.target() == Target::Spirv;
             let text = if spirv {
                 translate::string_of(bytes).unwrap_or_default()
             } else {
@@ -575,6 +591,7 @@ pub fn check(
                 continue;
             }
         };
+        let bytes = without_prefix(format, bytes);
         let made = pruned(format, &bytes).and_then(|pruned| match subjects.iter().position(|s| s.pruned == pruned) {
             Some(at) => Ok(at),
             None => Subject::new(mlp, pruned, options).map(|subject| {
@@ -589,22 +606,20 @@ pub fn check(
                 continue;
             }
         };
-        match format {
-            Format::Json => check_json(subject, &path, &bytes, &mut findings),
-            Format::Onnx => check_onnx(subject, &bytes, &mut findings),
-            Format::Metal | Format::MetalF16 => check_metal(subject, format, &bytes, &mut findings),
-            Format::Spirv | Format::SpirvF16 => check_spirv(subject, format, &bytes, &mut findings),
-            Format::Hlsl | Format::HlslPlain | Format::HlslF16 | Format::HlslPlainF16 => {
-                check_hlsl(subject, format, &bytes, &mut findings)
-            }
-            _ => check_shader(subject, format, &bytes, &mut findings),
+        match format.target() {
+            Target::Json => check_json(subject, &path, &bytes, &mut findings),
+            Target::Onnx => check_onnx(subject, &bytes, &mut findings),
+            Target::Metal => check_metal(subject, format, &bytes, &mut findings),
+            Target::Spirv => check_spirv(subject, format, &bytes, &mut findings),
+            Target::Hlsl => check_hlsl(subject, format, &bytes, &mut findings),
+            Target::Wgsl | Target::Glsl => check_shader(subject, format, &bytes, &mut findings),
         }
     }
     findings
 }
 
 fn check_json(subject: &Subject<'_>, path: &Path, bytes: &[u8], findings: &mut Vec<Finding>) {
-    const FORMAT: Format = Format::Json;
+    const FORMAT: Format = Format::JSON;
     let mlp = &subject.network;
     match file::from_json(bytes, path) {
         Err(error) => findings.push(Finding::new(FORMAT, "nmt", "parses", Err(error.to_string()))),
@@ -635,8 +650,7 @@ fn check_json(subject: &Subject<'_>, path: &Path, bytes: &[u8], findings: &mut V
 
 /// Compares the weights that were read with those of the network that should stand there.
 fn weights(subject: &Subject<'_>, format: Format, constants: Result<shader::Constants, String>) -> Result<(), String> {
-    let kind = format.kind().ok_or("no shader")?;
-    shader::weights(kind, &constants?, &subject.network)
+    shader::weights(format, &constants?, &subject.network)
 }
 
 /// The text of a shader export, or a finding that it is none.
@@ -677,7 +691,7 @@ fn check_shader(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &
         Ok(module) => module,
         Err(why) => return findings.push(Finding::new(format, "naga", "parses and validates", Err(why))),
     };
-    let glsl = format.kind().is_some_and(|kind| kind.language == Language::Glsl);
+    let glsl = format.target() == Target::Glsl;
     findings.push(Finding::new(format, "naga", "parses and validates", Ok(())));
     if glsl {
         findings.push(by_glslang(format, shader::glslang(text)));
@@ -822,7 +836,7 @@ fn check_spirv(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &m
 }
 
 fn check_onnx(subject: &Subject<'_>, bytes: &[u8], findings: &mut Vec<Finding>) {
-    const FORMAT: Format = Format::Onnx;
+    const FORMAT: Format = Format::ONNX;
     let width = subject.network.feature_set().width();
     findings.push(Finding::new(
         FORMAT,
@@ -873,6 +887,10 @@ mod tests {
         gpu_rows: 4000,
     };
 
+    fn all() -> Vec<Format> {
+        Format::all().collect()
+    }
+
     fn failures(findings: &[Finding]) -> Vec<String> {
         let failed = findings.iter().filter_map(|f| match &f.status {
             Status::Failed(why) => Some(format!("{} {}: {why}", f.format.name(), f.tool)),
@@ -883,7 +901,7 @@ mod tests {
 
     fn exported(mlp: &Mlp) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
-        export::write(mlp, folder.path(), &Format::ALL, Replace::No).unwrap();
+        export::write(mlp, folder.path(), &all(), None, Replace::No).unwrap();
         folder
     }
 
@@ -891,23 +909,32 @@ mod tests {
     fn fresh_exports_pass_and_another_networks_do_not() {
         let mlp = random_mlp(&[10, 8], 1);
         let folder = exported(&mlp);
-        let findings = check(&mlp, folder.path(), &Format::ALL, FEW, &|_| {});
+        let findings = check(&mlp, folder.path(), &all(), FEW, &|_| {});
         assert_eq!(failures(&findings), Vec::<String>::new());
         assert!(findings.iter().filter(|f| !f.numbers.is_empty()).count() >= 8);
         // The control: exports of a network that differs in one weight only.
         let mut layers = mlp.layers().to_vec();
         layers[1].weights[3] += 0.25;
         let other = Mlp::new(mlp.name(), mlp.feature_set(), layers, mlp.provenance.clone()).unwrap();
-        let failed = failures(&check(&other, folder.path(), &Format::ALL, FEW, &|_| {}));
-        for format in Format::ALL {
+        // Under a prefix the exports are the same to the check, which still sees the other network.
+        let prefix = "glass".parse().unwrap();
+        let glass = tempfile::tempdir().unwrap();
+        export::write(&mlp, glass.path(), &all(), Some(&prefix), Replace::No).unwrap();
+        let text = std::fs::read_to_string(glass.path().join("random.wgsl")).unwrap();
+        assert!(text.contains("fn glass_transmittance(") && !text.contains("fn nmt_"));
+        let findings = check(&mlp, glass.path(), &all(), FEW, &|_| {});
+        assert_eq!(failures(&findings), Vec::<String>::new());
+        assert!(!failures(&check(&other, glass.path(), &[Format::METAL], FEW, &|_| {})).is_empty());
+        let failed = failures(&check(&other, folder.path(), &all(), FEW, &|_| {}));
+        for format in all() {
             let of_format = failed
                 .iter()
                 .filter(|f| f.starts_with(&format!("{} ", format.name())))
                 .count();
             // What nothing runs has its weights only, and f16 has no eye for so little.
-            let runs = !matches!(format, Format::Metal | Format::Spirv)
-                && format.kind().is_none_or(|k| k.precision == Precision::F32);
-            let runs = runs && (!matches!(format, Format::Hlsl | Format::HlslPlain) || hlsl::slangc().is_ok());
+            let runs =
+                !matches!(format.target(), Target::Metal | Target::Spirv) && format.precision() == Precision::F32;
+            let runs = runs && (format.target() != Target::Hlsl || hlsl::slangc().is_ok());
             assert!(of_format >= if runs { 2 } else { 1 }, "{}: {failed:#?}", format.name());
         }
     }
@@ -924,7 +951,7 @@ mod tests {
         let left = crate::model::simplify::pruned(&whole, &rows).unwrap();
         assert!(left.multiply_adds() < whole.multiply_adds());
         let folder = exported(&left);
-        let findings = check(&whole, folder.path(), &Format::ALL, FEW, &|_| {});
+        let findings = check(&whole, folder.path(), &all(), FEW, &|_| {});
         assert_eq!(failures(&findings), Vec::<String>::new());
         let notes: Vec<&String> = findings.iter().filter_map(|f| f.note.as_ref()).collect();
         assert!(
@@ -949,7 +976,7 @@ mod tests {
         let failed = failures(&check(
             &whole,
             exported(&wrong).path(),
-            &[Format::Wgsl, Format::Onnx, Format::Json],
+            &[Format::WGSL, Format::ONNX, Format::JSON],
             FEW,
             &|_| {},
         ));
@@ -967,10 +994,10 @@ mod tests {
             text.replace("layer 1 without ", &format!("layer 1 without {active}, ")),
         )
         .unwrap();
-        let failed = failures(&check(&whole, folder.path(), &[Format::Wgsl], FEW, &|_| {}));
+        let failed = failures(&check(&whole, folder.path(), &[Format::WGSL], FEW, &|_| {}));
         assert!(failed.iter().any(|f| f.contains("NMT_W1")), "{failed:#?}");
         std::fs::write(&path, text.replace("layer 1 without ", "layer 9 without 1, ")).unwrap();
-        let failed = failures(&check(&whole, folder.path(), &[Format::Wgsl], FEW, &|_| {}));
+        let failed = failures(&check(&whole, folder.path(), &[Format::WGSL], FEW, &|_| {}));
         assert!(failed.iter().any(|f| f.contains("another network")), "{failed:#?}");
     }
 
@@ -993,7 +1020,7 @@ mod tests {
     #[test]
     fn required_tools_may_not_be_skipped() {
         let mut findings = vec![Finding::skipped(
-            Format::Onnx,
+            Format::ONNX,
             "onnxruntime",
             "computes the reference",
             "not found".to_owned(),
@@ -1009,7 +1036,7 @@ mod tests {
     fn a_blind_check_reports_itself() {
         let layers = vec![Dense::new(7, 1, vec![0.0; 7], vec![0.5]).unwrap()];
         let mlp = Mlp::new("random", crate::features::FeatureSet::Paper, layers, Default::default()).unwrap();
-        let failed = failures(&check(&mlp, exported(&mlp).path(), &[Format::Json], FEW, &|_| {}));
+        let failed = failures(&check(&mlp, exported(&mlp).path(), &[Format::JSON], FEW, &|_| {}));
         assert!(failed.iter().any(|f| f.contains("blind")), "{failed:?}");
     }
 }

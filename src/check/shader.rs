@@ -1,9 +1,8 @@
 //! Shader exports: parsed and validated by naga, weights read back bit for bit, executed on the CPU.
 
 use super::interpret::Interpreter;
-use crate::export::Format;
 use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH, ROUNDING};
-use crate::export::shader::{Form, Kind, Language, Precision};
+use crate::export::{Form, Format, Precision, Target};
 use crate::model::Mlp;
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -17,23 +16,17 @@ use std::process::{Command, Output, Stdio};
 /// # Errors
 /// The compiler's own words, with the place.
 pub fn parse(format: Format, source: &str) -> Result<Module, String> {
-    let Some(Kind {
-        language: language @ (Language::Wgsl | Language::Glsl),
-        precision,
-        ..
-    }) = format.kind()
-    else {
-        return Err(format!("naga does not read {}", format.name()));
+    let module = match format.target() {
+        Target::Wgsl => naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?,
+        Target::Glsl => {
+            let whole = complete_glsl(source);
+            naga::front::glsl::Frontend::default()
+                .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
+                .map_err(|e| e.emit_to_string(&whole))?
+        }
+        _ => return Err(format!("naga does not read {}", format.name())),
     };
-    let module = if language == Language::Wgsl {
-        naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?
-    } else {
-        let whole = complete_glsl(source);
-        naga::front::glsl::Frontend::default()
-            .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)
-            .map_err(|e| e.emit_to_string(&whole))?
-    };
-    let capabilities = if precision == Precision::F16 {
+    let capabilities = if format.precision() == Precision::F16 {
         Capabilities::SHADER_FLOAT16
     } else {
         Capabilities::empty()
@@ -99,8 +92,8 @@ pub(super) fn literals(text: &str) -> Result<Vec<f32>, String> {
 ///
 /// # Errors
 /// Names the constant and the place of the first difference.
-pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), String> {
-    let packed = kind.form == Form::Packed;
+pub fn weights(format: Format, constants: &Constants, mlp: &Mlp) -> Result<(), String> {
+    let packed = format.form() == Form::Packed;
     let numbers = |name: &str| {
         let found = constants.iter().find(|(n, _)| n == name);
         found
@@ -112,7 +105,7 @@ pub fn weights(kind: Kind, constants: &Constants, mlp: &Mlp) -> Result<(), Strin
     for (index, dense) in mlp.layers().iter().enumerate() {
         let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
         let kept = |x: f32| {
-            if kind.precision == Precision::F16 && index < last {
+            if format.precision() == Precision::F16 && index < last {
                 round_f16_of_f32(x)
             } else {
                 x
@@ -279,8 +272,8 @@ mod tests {
     use crate::pixel::{LogWarp, ViewZ};
     use rand::RngExt;
 
-    const SHADERS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::Glsl, Format::GlslPlain];
-    const HALVES: [Format; 2] = [Format::WgslF16, Format::WgslPlainF16];
+    const SHADERS: [Format; 4] = [Format::WGSL, Format::WGSL_PLAIN, Format::GLSL, Format::GLSL_PLAIN];
+    const HALVES: [Format; 2] = [Format::WGSL_F16, Format::WGSL_PLAIN_F16];
 
     fn source(mlp: &Mlp, format: Format) -> String {
         String::from_utf8(encode(mlp, format).unwrap()).unwrap()
@@ -299,13 +292,13 @@ mod tests {
             for format in SHADERS {
                 let text = source(&mlp, format);
                 let module = parse(format, &text).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
-                weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
+                weights(format, &constants(&module).unwrap(), &mlp).unwrap();
                 literal_indices(&module).unwrap();
                 let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
                 for (o, r) in out.iter().zip(&reference) {
                     match format {
                         // The plain form adds in the reference's order: the same bits.
-                        Format::WgslPlain | Format::GlslPlain => {
+                        Format::WGSL_PLAIN | Format::GLSL_PLAIN => {
                             assert_eq!(o.to_bits(), r.to_bits(), "{format:?} {hidden:?}")
                         }
                         _ => assert!((o - r).abs() < 2e-6, "{format:?} {hidden:?}: {o} {r}"),
@@ -332,7 +325,7 @@ mod tests {
             for format in HALVES {
                 let module =
                     parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{format:?} {hidden:?}: {e}"));
-                weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
+                weights(format, &constants(&module).unwrap(), &mlp).unwrap();
                 literal_indices(&module).unwrap();
                 let out = Interpreter::new(&module).call_rows(ENTRY, &rows, 7).unwrap();
                 let worst = out
@@ -341,11 +334,11 @@ mod tests {
                     .map(|(a, b)| if near(*a, *b, 9.0) { (a - b).abs() } else { 9.0 })
                     .fold(0.0, f32::max);
                 assert!(
-                    worst <= if format == Format::WgslPlainF16 { 0.0 } else { 2e-2 },
+                    worst <= if format == Format::WGSL_PLAIN_F16 { 0.0 } else { 2e-2 },
                     "{format:?} {hidden:?}: {worst}"
                 );
                 // What asks for f16 is not taken for f32, and does not compute it.
-                assert!(parse(Format::Wgsl, &source(&mlp, format)).is_err() != hidden.is_empty());
+                assert!(parse(Format::WGSL, &source(&mlp, format)).is_err() != hidden.is_empty());
                 let single = mlp.forward_batch::<f32>(&rows);
                 assert!(out.iter().zip(&single).any(|(a, b)| (a - b).abs() > 1e-4) != hidden.is_empty());
             }
@@ -365,7 +358,7 @@ mod tests {
                         1,
                     );
                     let module = parse(format, &changed).unwrap();
-                    let message = weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap_err();
+                    let message = weights(format, &constants(&module).unwrap(), &mlp).unwrap_err();
                     assert!(message.contains("the network has"), "{message}");
                 }
             }
@@ -374,11 +367,11 @@ mod tests {
 
     #[test]
     fn broken_text_and_run_time_indices_are_found() {
-        let text = source(&random_mlp(&[4], 1), Format::Wgsl);
-        assert!(parse(Format::Wgsl, &text[..text.len() / 2]).is_err());
-        assert!(parse(Format::Glsl, &text).is_err());
+        let text = source(&random_mlp(&[4], 1), Format::WGSL);
+        assert!(parse(Format::WGSL, &text[..text.len() / 2]).is_err());
+        assert!(parse(Format::GLSL, &text).is_err());
         let indexed = parse(
-            Format::Wgsl,
+            Format::WGSL,
             "const W = array<f32, 2>(1.0, 2.0); fn f(i: u32) -> f32 { return W[i]; }",
         )
         .unwrap();
@@ -405,7 +398,7 @@ mod tests {
         for format in SHADERS {
             let text = source(&mlp, format);
             let module = parse(format, &text).unwrap();
-            weights(format.kind().unwrap(), &constants(&module).unwrap(), &mlp).unwrap();
+            weights(format, &constants(&module).unwrap(), &mlp).unwrap();
             let interpreter = Interpreter::new(&module);
             for (v, v0, v1) in [
                 (3.0, 2.0, 6.0),
@@ -437,7 +430,7 @@ mod tests {
         let synth = crate::synth::Synth::new(crate::synth::SynthConfig::paper(), 4).unwrap();
         let list = synth.pixels(crate::synth::Purpose::Evaluation, 0, 40);
         let planes = list.planes().unwrap();
-        for format in [Format::Wgsl, Format::Glsl] {
+        for format in [Format::WGSL, Format::GLSL] {
             let module = parse(format, &source(&mlp, format)).unwrap();
             let interpreter = Interpreter::new(&module);
             let number = |v: f64| Value::<1>::Uniform(v as f32);
@@ -505,7 +498,7 @@ mod tests {
     fn recentred_shaders_follow_their_twin() {
         fn compare<const K: usize>(set: FeatureSet) {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
-            for format in [Format::Wgsl, Format::Glsl] {
+            for format in [Format::WGSL, Format::GLSL] {
                 let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
                 let interpreter = Interpreter::new(&module);
                 let one = |name: &str, arguments: Vec<Value<1>>| {
@@ -616,7 +609,7 @@ mod tests {
     fn early_answers_are_those_of_the_whole_computation() {
         fn compare<const K: usize>(set: FeatureSet) {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
-            for format in [Format::Wgsl, Format::GlslPlain] {
+            for format in [Format::WGSL, Format::GLSL_PLAIN] {
                 let module = parse(format, &source(&mlp, format)).unwrap_or_else(|e| panic!("{e}"));
                 let interpreter = Interpreter::new(&module);
                 let one = |name: &str, arguments: Vec<Value<1>>| {
@@ -708,7 +701,7 @@ mod tests {
             let mlp = Mlp::new("r", set, random_layers(set.width()), Provenance::default()).unwrap();
             let list = crate::infer::passes::tests::pixels(&mut stream(7, 95, K as u64), pixels);
             let range = list.depth_range().map(|(v0, v1)| [v0, v1]).unwrap();
-            for format in [Format::Wgsl, Format::Glsl] {
+            for format in [Format::WGSL, Format::GLSL] {
                 let text = source(&mlp, format);
                 let off = |name: &str, value: f32| {
                     let number = format!("{value:?}");

@@ -4,7 +4,7 @@ use super::Verdict;
 use super::export::FormatArguments;
 use super::ui::{Ui, table};
 use crate::check::{self, CheckOptions, Finding, OPTIONAL_TOOLS, Status};
-use crate::export::Format;
+use crate::export::{self, Format};
 use crate::model::{Mlp, shipped};
 use crate::numeric::require;
 use anyhow::bail;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Check {
-    /// Model file.
+    /// Model file; or core:K, the method without a network.
     model: PathBuf,
     /// Folder of its exports.
     #[arg(long, value_name = "DIR")]
@@ -59,6 +59,16 @@ impl CheckArguments {
 
 impl Check {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        if let Some(set) = self.model.to_str().and_then(export::core::named) {
+            let mut findings = check::core::check(set, &self.exports);
+            check::require(&mut findings, &self.options.required()?);
+            if ui.json() {
+                ui.print_json("check", findings.iter().map(to_json).collect())?;
+            } else {
+                ui.print(&text(&findings))?;
+            }
+            return Ok(verdict(&findings));
+        }
         let mlp = shipped::open(&self.model)?;
         let findings = findings(&mlp, &self.exports, &self.formats.formats()?, &self.options, ui)?;
         if ui.json() {

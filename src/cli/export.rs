@@ -3,26 +3,36 @@
 use super::Verdict;
 use super::ui::Ui;
 use crate::check::rows;
-use crate::export::shader::Precision;
-use crate::export::{self, Format};
+use crate::export::{self, Format, Precision, Prefix};
 use crate::model::{Mlp, shipped, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Export {
-    /// Model file.
+    /// Model file, or the name of a shipped network: recommended, small, moments-6, paper, deep-weighted-blended; or
+    /// core:K, the method without a network, in WGSL, GLSL and HLSL.
     model: PathBuf,
     /// Folder for the exports.
     #[arg(long)]
     out: PathBuf,
     #[command(flatten)]
     formats: FormatArguments,
-    /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone: 1000000). Fewer multiply-adds; where such a unit
-    /// would fire after all, answers are off. The header says which were taken out, and 'nmt check' holds the exports to the whole network.
+    /// What shader names begin with instead of nmt, so that several networks fit one module: functions glass_...,
+    /// constants GLASS_..., types Glass...
+    #[arg(long, value_name = "NAME")]
+    prefix: Option<Prefix>,
+    /// Write a shader folder instead: include files in WGSL, GLSL, HLSL and Metal, and the three passes as whole files
+    /// for WebGPU, OpenGL, OpenGL ES, Vulkan, Direct3D and Metal.
+    #[arg(long, conflicts_with_all = ["format", "precision"])]
+    passes: bool,
+    /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone:
+    /// 1000000). Fewer multiply-adds; where such a unit would fire after all, answers are off. The header says which
+    /// were taken out, and 'nmt check' holds the exports to the whole network.
     #[arg(long, value_name = "ROWS", num_args = 0..=1, require_equals = true, default_missing_value = "1000000")]
     prune: Option<usize>,
     /// Replace what is there.
@@ -36,27 +46,14 @@ const PRUNE_SEED: u64 = 0x0070_7275_6e65;
 /// Options that say which exports are meant.
 #[derive(Args)]
 pub struct FormatArguments {
-    /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars. Without it: all but the plain ones.
-    #[arg(long, value_enum, value_delimiter = ',', num_args = 1..)]
-    format: Vec<FormatName>,
-    /// What weights and activations of the hidden layers are kept in. f16 is offered for wgsl, hlsl, metal and spirv.
+    /// Formats. A language's plain name is its faster form, weights in 4 x 4 blocks; "-plain" are unrolled scalars,
+    /// "-f16" has hidden layers in f16. Without it: all but the plain ones.
+    #[arg(long, value_parser = format(), value_delimiter = ',', num_args = 1..)]
+    format: Vec<Format>,
+    /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered for
+    /// wgsl, hlsl, metal and spirv.
     #[arg(long, value_enum, default_value = "f32")]
     precision: PrecisionName,
-}
-
-/// A format as it is named on the command line.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
-pub enum FormatName {
-    Wgsl,
-    WgslPlain,
-    Glsl,
-    GlslPlain,
-    Hlsl,
-    HlslPlain,
-    Metal,
-    Spirv,
-    Json,
-    Onnx,
 }
 
 /// A precision as it is named on the command line.
@@ -66,21 +63,9 @@ pub enum PrecisionName {
     F16,
 }
 
-impl FormatName {
-    fn format(self) -> Format {
-        match self {
-            Self::Wgsl => Format::Wgsl,
-            Self::WgslPlain => Format::WgslPlain,
-            Self::Glsl => Format::Glsl,
-            Self::GlslPlain => Format::GlslPlain,
-            Self::Hlsl => Format::Hlsl,
-            Self::HlslPlain => Format::HlslPlain,
-            Self::Metal => Format::Metal,
-            Self::Spirv => Format::Spirv,
-            Self::Json => Format::Json,
-            Self::Onnx => Format::Onnx,
-        }
-    }
+/// Reads a format's name, and lists all of them in the help.
+fn format() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::all().map(Format::name)).try_map(|name| name.parse::<Format>())
 }
 
 impl FormatArguments {
@@ -89,23 +74,15 @@ impl FormatArguments {
     /// # Errors
     /// Where a format that is named has no such precision.
     pub fn formats(&self) -> anyhow::Result<Vec<Format>> {
-        let precision = match self.precision {
-            PrecisionName::F32 => Precision::F32,
-            PrecisionName::F16 => Precision::F16,
+        let precise = |format: Format| match self.precision {
+            PrecisionName::F32 => Ok(format),
+            PrecisionName::F16 => format.with_precision(Precision::F16),
         };
-        let mut formats = Vec::new();
-        if self.format.is_empty() {
-            formats.extend(Format::DEFAULT.into_iter().filter_map(|f| f.with_precision(precision)));
-        }
-        for name in &self.format {
-            match name.format().with_precision(precision) {
-                Some(format) => formats.push(format),
-                None => bail!(
-                    "{} has no f16 form; --precision f16 is offered for wgsl, wgsl-plain, hlsl, hlsl-plain, metal and spirv",
-                    name.format().name()
-                ),
-            }
-        }
+        let mut formats: Vec<Format> = if self.format.is_empty() {
+            Format::DEFAULT.into_iter().filter_map(|f| precise(f).ok()).collect()
+        } else {
+            self.format.iter().map(|&f| precise(f)).collect::<Result<_, _>>()?
+        };
         formats.sort();
         formats.dedup();
         Ok(formats)
@@ -120,6 +97,20 @@ fn hidden(mlp: &Mlp) -> usize {
 
 impl Export {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
+        if let Some(set) = self.model.to_str().and_then(export::core::named) {
+            if self.passes || self.prefix.is_some() || self.prune.is_some() {
+                bail!("core:K is written as one file a language; --passes, --prefix and --prune are for networks");
+            }
+            let replace = if self.force { Replace::Yes } else { Replace::No };
+            let paths = export::core::write(set, &self.out, replace)?;
+            if ui.json() {
+                ui.print_json("export", paths.iter().map(|path| json!({ "file": path })).collect())?;
+            } else {
+                let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
+                ui.print(&lines)?;
+            }
+            return Ok(Verdict::Fine);
+        }
         let whole = shipped::open(&self.model)?;
         let mlp = match self.prune {
             None => whole.clone(),
@@ -129,13 +120,21 @@ impl Export {
                 simplify::pruned(&whole, &rows)?
             }
         };
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        let prefix = self.prefix.as_ref();
+        if self.passes {
+            let paths = export::files::write(&mlp, &self.out, prefix, replace)?;
+            if ui.json() {
+                let result = |path: &PathBuf| json!({ "network": mlp.shape(), "file": path });
+                ui.print_json("export", paths.iter().map(result).collect())?;
+            } else {
+                let lines: String = paths.iter().map(|path| format!("{}\n", path.display())).collect();
+                ui.print(&lines)?;
+            }
+            return Ok(Verdict::Fine);
+        }
         let formats = self.formats.formats()?;
-        let paths = export::write(
-            &mlp,
-            &self.out,
-            &formats,
-            if self.force { Replace::Yes } else { Replace::No },
-        )?;
+        let paths = export::write(&mlp, &self.out, &formats, prefix, replace)?;
         if ui.json() {
             let result = |(f, path): (&Format, &PathBuf)| {
                 json!({

@@ -65,7 +65,7 @@ impl Run {
         trained.mlp.provenance.transmittance_worst_error = Some(error.worst());
         trained.keep(&model, Replace::Yes, &checkpoint)?;
 
-        export::write(&trained.mlp, &exports, &Format::DEFAULT, Replace::Yes)?;
+        export::write(&trained.mlp, &exports, &Format::DEFAULT, None, Replace::Yes)?;
         let findings = findings(&trained.mlp, &exports, &Format::DEFAULT, &self.check, &stages)?;
 
         let mut summary = trained.to_json();

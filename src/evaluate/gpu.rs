@@ -1,12 +1,14 @@
 //! What the GPU makes of a method, beside the CPU's image of it and the exact one.
 
 use super::{EvaluateError, FlipMap, Image, Truth, flip};
-use crate::gpu::pipeline::{Drawing, Pipeline, Rendered, TargetPrecision};
+use crate::gpu::pipeline::{Pipeline, Rendered};
 use crate::gpu::tiles::TilePasses;
-use crate::gpu::{Gpu, GpuError, MethodShader, Pass1};
+use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::oit::Context;
 use crate::oit::neural::Skip;
+use crate::oit::shader::Pass1;
 use crate::pixel::FragmentList;
+use crate::shader::passes::TargetPrecision;
 use serde::{Deserialize, Serialize};
 
 /// A method's image from the GPU against the CPU's, and against the exact one. In JSON, NaN and infinity become null;
@@ -90,22 +92,20 @@ fn render(
         });
     }
     let range = method.depth_range(list, context.planes, context.depth_range)?;
-    if !is_drawn(gpu, storage) {
-        let passes = TilePasses::new(gpu, list, method, range, background)?;
+    let list = DeviceList::new(gpu, list)?;
+    if !draws(gpu, method, storage) {
+        let passes = TilePasses::new(gpu, &list, method, range, background)?;
         passes.run(gpu, skip)?;
         return passes.render(gpu, skip);
     }
-    let drawing = Drawing::new(gpu, list)?;
-    let pipeline = Pipeline::new(
-        gpu,
-        &drawing,
-        &method.clone().with_skip(skip),
-        range,
-        background,
-        storage,
-    )?;
+    let pipeline = Pipeline::new(gpu, &list, &method.clone().with_skip(skip), range, background, storage)?;
     pipeline.run(gpu)?;
     pipeline.render(gpu)
+}
+
+/// Whether render passes make the image of a method: it must keep its core, where it has one, in the fragment stage.
+fn draws(gpu: &Gpu, method: &MethodShader, storage: TargetPrecision) -> bool {
+    is_drawn(gpu, storage) && (method.core.is_none() || gpu.has_fragment_atomics())
 }
 
 /// Whether render passes make the image.
@@ -149,8 +149,13 @@ pub fn judge(
     let result = GpuResult {
         method: method.name.clone(),
         adapter: gpu.name(),
-        passes: if is_drawn(gpu, storage) { "render" } else { "compute" }.to_owned(),
-        storage: if is_drawn(gpu, storage) {
+        passes: if draws(gpu, method, storage) {
+            "render"
+        } else {
+            "compute"
+        }
+        .to_owned(),
+        storage: if draws(gpu, method, storage) {
             storage
         } else {
             TargetPrecision::Full
@@ -213,7 +218,7 @@ mod tests {
         let list = colored_list(40, 30);
         let truth = Truth::new(&list, [0.2, 0.4, 1.0]);
         let mlp: Mlp = file::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("models/small.json")).unwrap();
-        let method = MethodShader::neural(&mlp, Format::Wgsl).unwrap();
+        let method = MethodShader::neural(&mlp, Format::WGSL).unwrap();
         let cpu = truth
             .judge(&Neural::new(mlp), Context::default())
             .unwrap()

@@ -1,7 +1,8 @@
-//! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16, through one emitter.
+//! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16,
+//! through one emitter.
 
-use super::ExportError;
 use super::dialect::{Glsl, Hlsl, Wgsl};
+use super::{ExportError, Form, Format, Precision, Prefix, calls};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
@@ -18,35 +19,6 @@ pub enum Language {
     Glsl,
     /// Direct3D's, shader model 5 and later.
     Hlsl,
-}
-
-/// How weights are laid out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
-    /// One scalar a weight, `[in][out]` flat; sums in the order of the reference forward pass.
-    Plain,
-    /// Blocks of 4 × 4 weights as matrices; shorter, and faster on most devices.
-    Packed,
-}
-
-/// What weights and activations are kept in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Precision {
-    /// f32 throughout.
-    F32,
-    /// Weights and activations of hidden layers in f16; features, the last layer and the answer in f32.
-    F16,
-}
-
-/// What tells one shader source from another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kind {
-    /// Language.
-    pub language: Language,
-    /// Layout of the weights.
-    pub form: Form,
-    /// Precision of the hidden layers.
-    pub precision: Precision,
 }
 
 /// The function that answers; it takes the array of features.
@@ -148,7 +120,8 @@ impl Numbers {
         }
     }
 
-    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but HLSL's rows.
+    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but
+    /// HLSL's rows.
     fn product(self, block: &str, activations: &str) -> String {
         match self.language {
             Language::Wgsl | Language::Glsl => format!("{block} * {activations}"),
@@ -191,8 +164,9 @@ fn shortest_half(x: f32) -> f32 {
         .unwrap_or(half as f32)
 }
 
-/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random rows of the training distribution: f16 keeps 11
-/// bits of a sum, and a logit that is off by 0.02 beside great absorbance is rare, but there.
+/// Greatest absolute error and greatest mean error of a network with its hidden layers in f16, against f64, on random
+/// rows of the training distribution: f16 keeps 11 bits of a sum, and a logit that is off by 0.02 beside great
+/// absorbance is rare, but there.
 pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
     let tolerances = set.spec().tolerances;
     (tolerances.half, tolerances.half_mean)
@@ -201,7 +175,8 @@ pub fn half_bounds(set: FeatureSet) -> (f64, f64) {
 /// Greatest finite f16.
 const MAX_HALF: f64 = 65504.0;
 
-/// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered and rounded, none overflows.
+/// Greatest absolute feature that a network's hidden layers may see in f16: however the sums of its units are ordered
+/// and rounded, none overflows.
 ///
 /// # Errors
 /// [`ExportError::Half`] where a weight does not fit, or features of the usual size could overflow.
@@ -263,29 +238,77 @@ pub fn half_limit(mlp: &Mlp) -> Result<f32, ExportError> {
 /// A whole include file.
 ///
 /// # Errors
-/// [`ExportError::Half`] where the network does not fit into f16; [`ExportError::NoHalf`] for GLSL in f16.
-pub fn source(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
-    let limit = match (kind.precision, kind.language) {
-        (Precision::F32, _) => None,
-        (Precision::F16, Language::Glsl) => return Err(ExportError::NoHalf("glsl")),
-        (Precision::F16, _) => Some(half_limit(mlp)?),
+/// [`ExportError::Half`] where the network does not fit into f16.
+///
+/// # Panics
+/// If the format is no shader.
+pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<String, ExportError> {
+    let language = format.language().expect("the format of a shader");
+    let (form, precision) = (format.form(), format.precision());
+    let limit = (precision == Precision::F16).then(|| half_limit(mlp)).transpose()?;
+    let network = Network {
+        mlp,
+        language,
+        precision,
+        limit,
     };
-    let network = Network { mlp, kind, limit };
-    let mut text = comment(&header(mlp, kind, limit));
-    if kind.language == Language::Wgsl && kind.precision == Precision::F16 {
+    let mut text = String::new();
+    if language == Language::Wgsl && precision == Precision::F16 {
         text += "enable f16;\n\n";
     }
-    let functions = Source::new(kind.language.dialect(), "nmt");
-    let calls = &mlp.feature_set().spec().shader;
-    (calls.write_features)(&functions);
+    let functions = Source::new(language.dialect(), "nmt");
+    let shader_calls = &mlp.feature_set().spec().shader;
+    (shader_calls.write_features)(&functions);
     let mut body = "\n".to_owned();
-    match kind.form {
+    match form {
         Form::Plain => network.plain(&mut body),
         Form::Packed => network.packed(&mut body),
     }
     functions.between(&body);
-    (calls.write_answers)(&functions);
-    Ok(text + functions.into_text().trim_start_matches('\n'))
+    (shader_calls.write_answers)(&functions);
+    text += functions.into_text().trim_start_matches('\n');
+    text += &calls::source(language, mlp.feature_set());
+    let guard = include_guard(mlp.name());
+    let text = match language {
+        Language::Wgsl => text,
+        // A second inclusion is none. GLSL ES has no default precision in fragment shaders.
+        Language::Glsl => format!(
+            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n{text}\n#endif\n"
+        ),
+        Language::Hlsl => format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"),
+    };
+    let head = comment(&header(mlp, format, prefix, limit));
+    Ok(match prefix {
+        Some(prefix) => head + &prefix.apply(&text),
+        None => head + &text,
+    })
+}
+
+/// The macro that tells whether a network's include file is there already.
+pub(super) fn include_guard(network: &str) -> String {
+    let word: String = network
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_uppercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    // Two underscores are for compilers.
+    let parts: Vec<&str> = word.split('_').filter(|part| !part.is_empty()).collect();
+    format!("NMT_INCLUDED_{}", parts.join("_"))
+}
+
+/// Which network it is, where it comes from and how accurate it is.
+pub(super) fn short_header(mlp: &Mlp) -> Vec<String> {
+    let kept = ["Neural", PRUNED, "Provenance", "Measured"];
+    let lines = header(mlp, Format::WGSL, None, None);
+    lines
+        .into_iter()
+        .filter(|line| kept.iter().any(|head| line.starts_with(head)))
+        .collect()
 }
 
 /// Lines as a comment, and an empty line behind it.
@@ -298,7 +321,7 @@ pub(super) fn comment(lines: &[String]) -> String {
 }
 
 /// What the file is, what to feed it and what to expect.
-pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
+pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: Option<f32>) -> Vec<String> {
     let set = mlp.feature_set();
     let mut lines = vec![
         format!(
@@ -307,19 +330,20 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
             mlp.shape(),
             mlp.multiply_adds()
         ),
-        match kind.form {
+        match format.form() {
             Form::Plain => "Form: unrolled scalars. Weights are [in][out]; every index is a literal.".to_owned(),
             Form::Packed => "Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.".to_owned(),
         },
     ];
-    if kind.language == Language::Hlsl {
+    lines.extend(prefix.map(Prefix::line));
+    if format.language() == Some(Language::Hlsl) {
         lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
     }
     if let Some(limit) = limit {
-        lines.extend(half_lines(kind.language, limit, half_bounds(set)));
+        lines.extend(half_lines(format.language(), limit, half_bounds(set)));
     }
     if let Some(pruned) = &mlp.provenance.pruned {
-        lines.extend(pruned_lines(pruned, kind.form));
+        lines.extend(pruned_lines(pruned, format.form()));
     }
     lines.extend([
         String::new(),
@@ -362,13 +386,13 @@ pub(super) fn header(mlp: &Mlp, kind: Kind, limit: Option<f32>) -> Vec<String> {
 }
 
 /// What is to be known of half precision.
-fn half_lines(language: Language, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
+fn half_lines(language: Option<Language>, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
     let mut lines = vec![
         "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are f32.".to_owned(),
         format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
         format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
     ];
-    if language == Language::Hlsl {
+    if language == Some(Language::Hlsl) {
         lines.push(
             "DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."
                 .to_owned(),
@@ -426,7 +450,8 @@ pub(crate) fn biases_are_folded(dense: &Dense) -> bool {
     !dense.inputs().is_multiple_of(4)
 }
 
-/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, input by input; missing ones are 0, and the biases stand at the first missing input.
+/// Block of weights from inputs 4i..4i+4 to outputs 4g..4g+4, input by input; missing ones are 0, and the biases stand
+/// at the first missing input.
 pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
     std::array::from_fn(|column| {
         std::array::from_fn(|row| {
@@ -443,7 +468,8 @@ pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
 /// A network about to become source.
 struct Network<'a> {
     mlp: &'a Mlp,
-    kind: Kind,
+    language: Language,
+    precision: Precision,
     /// Greatest absolute feature that hidden layers in f16 see.
     limit: Option<f32>,
 }
@@ -451,7 +477,7 @@ struct Network<'a> {
 impl Network<'_> {
     fn numbers(&self, precision: Precision) -> Numbers {
         Numbers {
-            language: self.kind.language,
+            language: self.language,
             precision,
         }
     }
@@ -465,7 +491,7 @@ impl Network<'_> {
         self.numbers(if index == self.last() {
             Precision::F32
         } else {
-            self.kind.precision
+            self.precision
         })
     }
 
@@ -494,12 +520,12 @@ impl Network<'_> {
         let _ = write!(
             text,
             "\n// {what}, in [0, 1].\n{}",
-            self.kind.language.function(network_function(set), set.width())
+            self.language.function(network_function(set), set.width())
         );
     }
 
     fn plain(&self, text: &mut String) {
-        let language = self.kind.language;
+        let language = self.language;
         for (index, dense) in self.mlp.layers().iter().enumerate() {
             let numbers = self.of_layer(index);
             for (name, values) in [
@@ -568,7 +594,7 @@ impl Network<'_> {
 
     /// From the logit to the answer, without overflow; what [`Mlp::forward`] does.
     fn ending(&self) -> String {
-        let language = self.kind.language;
+        let language = self.language;
         // 1/(1 + e^−x)
         let mut text = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n".to_owned();
         if let Answer::AbsorbanceShare { column, offset } = self.mlp.feature_set().answer() {
@@ -626,7 +652,7 @@ impl Network<'_> {
     }
 
     fn packed(&self, text: &mut String) {
-        let language = self.kind.language;
+        let language = self.language;
         self.packed_constants(text);
         self.head(text);
         let width = self.mlp.feature_set().width();
@@ -691,6 +717,7 @@ impl Network<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::export::Target;
     use crate::model::Provenance;
     use crate::model::mlp::tests::random_mlp;
 
@@ -703,23 +730,15 @@ mod tests {
             seed: Some(1),
             ..Provenance::default()
         };
-        for (language, name) in [
-            (Language::Wgsl, "wgsl"),
-            (Language::Glsl, "glsl"),
-            (Language::Hlsl, "hlsl"),
-        ] {
-            for (form, form_name) in [(Form::Plain, "plain"), (Form::Packed, "packed")] {
-                for (precision, suffix) in [(Precision::F32, ""), (Precision::F16, "_f16")] {
-                    match source(
-                        &mlp,
-                        Kind {
-                            language,
-                            form,
-                            precision,
-                        },
-                    ) {
-                        Ok(text) => insta::assert_snapshot!(format!("{form_name}_{name}{suffix}"), text),
-                        Err(error) => assert!(language == Language::Glsl && precision == Precision::F16, "{error}"),
+        for (language, target) in [("wgsl", Target::Wgsl), ("glsl", Target::Glsl), ("hlsl", Target::Hlsl)] {
+            for (form_name, form) in [("plain", Form::Plain), ("packed", Form::Packed)] {
+                for (suffix, precision) in [("", Precision::F32), ("_f16", Precision::F16)] {
+                    match Format::new(target, form, precision) {
+                        Ok(format) => insta::assert_snapshot!(
+                            format!("{form_name}_{language}{suffix}"),
+                            source(&mlp, format, None).unwrap()
+                        ),
+                        Err(error) => assert!(language == "glsl" && suffix == "_f16", "{error}"),
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! MSL and SPIR-V, which naga makes of the packed WGSL.
 
-use super::ExportError;
-use super::shader::{self, ENTRY, Kind, Precision};
+use super::shader::{self, ENTRY};
+use super::{ExportError, Format, Precision, Prefix};
 use crate::features::FeatureSet;
 use crate::features::spec::ShaderCalls;
 use crate::model::Mlp;
@@ -41,30 +41,96 @@ pub fn validate(module: &Module) -> Result<ModuleInfo, String> {
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn metal(mlp: &Mlp, kind: Kind) -> Result<String, ExportError> {
+pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<String, ExportError> {
     let refused = |reason| ExportError::Translate {
         language: "MSL",
         reason,
     };
-    let (module, info) = parse_wgsl(&shader::source(mlp, kind)?).map_err(refused)?;
+    let source = shader::source(mlp, format, prefix)?;
+    let text = msl(&source, &back::msl::Options::default()).map_err(refused)?;
+    let guard = shader::include_guard(mlp.name());
+    let guard = prefix.map_or(guard.clone(), |prefix| prefix.apply(&guard));
+    let more = [
+        "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
+    ];
+    let head = shader::comment(&header(mlp, format, prefix, &more)?);
+    Ok(format!("{head}#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"))
+}
+
+/// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0
+/// are buffer 0; textures have the index of their binding.
+///
+/// # Errors
+/// naga's words.
+pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
+    let (module, _) = parse_wgsl(wgsl)?;
+    let mut resources = back::msl::EntryPointResources::default();
+    for (_, variable) in module.global_variables.iter() {
+        let Some(binding) = variable.binding else { continue };
+        let slot = binding.binding as u8;
+        let target = if variable.space == naga::AddressSpace::Uniform {
+            back::msl::BindTarget {
+                buffer: Some(slot),
+                ..Default::default()
+            }
+        } else {
+            back::msl::BindTarget {
+                texture: Some(slot),
+                ..Default::default()
+            }
+        };
+        resources.resources.insert(binding, target);
+    }
+    let per_entry_point_map = module
+        .entry_points
+        .iter()
+        .map(|entry| (entry.name.clone(), resources.clone()))
+        .collect();
     let options = back::msl::Options {
-        lang_version: (2, 0),
+        per_entry_point_map,
+        fake_missing_bindings: false,
         ..Default::default()
     };
+    let head: Vec<&str> = wgsl.lines().take_while(|line| line.starts_with("//")).collect();
+    let head = head.join("\n").replace("// WebGPU, ", "// Metal, by naga from WGSL, ");
+    Ok(format!("{head}\n\n{}", msl(wgsl, &options)?))
+}
+
+/// What naga makes of WGSL. It puts an underscore behind names that end in a digit; that goes where it is not needed.
+fn msl(wgsl: &str, options: &back::msl::Options) -> Result<String, String> {
+    let (module, info) = parse_wgsl(wgsl)?;
+    let options = back::msl::Options {
+        // The first that knows an invariant position.
+        lang_version: (2, 1),
+        ..options.clone()
+    };
     let (text, _) =
-        back::msl::write_string(&module, &info, &options, &Default::default()).map_err(|e| refused(e.to_string()))?;
-    let more = [
-        "Metal Shading Language 2.0, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
-    ];
-    Ok(shader::comment(&header(mlp, kind, &more)?) + &text)
+        back::msl::write_string(&module, &info, &options, &Default::default()).map_err(|e| e.to_string())?;
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let words: std::collections::HashSet<&str> = text.split(|c: char| !is_word(c)).collect();
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text.as_str();
+    while let Some(at) = rest.find(is_word) {
+        let end = rest[at..].find(|c| !is_word(c)).map_or(rest.len(), |n| at + n);
+        let word = &rest[at..end];
+        let bare = word.strip_suffix('_').filter(|bare| {
+            bare.ends_with(|c: char| c.is_ascii_digit())
+                && bare.starts_with(|c: char| c.is_alphabetic())
+                && !words.contains(bare)
+        });
+        out += &rest[..at];
+        out += bare.unwrap_or(word);
+        rest = &rest[end..];
+    }
+    Ok(out + rest)
 }
 
 /// The header of the WGSL that a translation is made of, with more lines after its form.
-fn header(mlp: &Mlp, kind: Kind, more: &[&str]) -> Result<Vec<String>, ExportError> {
-    let limit = (kind.precision == Precision::F16)
+fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, more: &[&str]) -> Result<Vec<String>, ExportError> {
+    let limit = (format.precision() == Precision::F16)
         .then(|| shader::half_limit(mlp))
         .transpose()?;
-    let mut lines = shader::header(mlp, kind, limit);
+    let mut lines = shader::header(mlp, format, prefix, limit);
     lines.splice(2..2, more.iter().map(|&l| l.to_owned()));
     Ok(lines)
 }
@@ -110,17 +176,18 @@ fn {name}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups)
     text
 }
 
-/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an OpString.
+/// The network as a SPIR-V module with two compute shaders, [`ROWS`] and [`FRAGMENTS`]; its header stands in an
+/// OpString.
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
+pub fn spirv(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
     let refused = |reason| ExportError::Translate {
         language: "SPIR-V",
         reason,
     };
     let set = mlp.feature_set();
-    let (module, info) = parse_wgsl(&with_entry_points(&shader::source(mlp, kind)?, set)).map_err(refused)?;
+    let (module, info) = parse_wgsl(&with_entry_points(&shader::source(mlp, format, None)?, set)).map_err(refused)?;
     let options = back::spv::Options {
         flags: back::spv::WriterFlags::DEBUG,
         ..Default::default()
@@ -139,7 +206,7 @@ pub fn spirv(mlp: &Mlp, kind: Kind) -> Result<Vec<u8>, ExportError> {
         &rows,
         &fragments,
     ];
-    let text = header(mlp, kind, &more)?.join("\n");
+    let text = header(mlp, format, None, &more)?.join("\n");
     let words = with_string(&words, &text);
     Ok(words.iter().flat_map(|w| w.to_le_bytes()).collect())
 }

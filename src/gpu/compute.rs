@@ -104,7 +104,7 @@ void main() {{
 }
 
 /// WGSL of a GLSL compute shader.
-fn wgsl_of_glsl(text: &str) -> Result<String, GpuError> {
+pub(super) fn wgsl_of_glsl(text: &str) -> Result<String, GpuError> {
     let refused = |reason: String| GpuError::Source {
         label: "GLSL through naga".to_owned(),
         reason,

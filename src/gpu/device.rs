@@ -1,5 +1,6 @@
 //! A headless GPU device: buffers in, dispatches timed, buffers out.
 
+use crate::shader::ShaderError;
 use bytemuck::Pod;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -62,6 +63,13 @@ pub enum GpuError {
     },
 }
 
+impl From<ShaderError> for GpuError {
+    fn from(error: ShaderError) -> Self {
+        let ShaderError { label, reason } = error;
+        Self::Source { label, reason }
+    }
+}
+
 /// Features that are taken where the adapter has them.
 const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
     .union(wgpu::Features::FLOAT32_BLENDABLE)
@@ -72,6 +80,8 @@ const WANTED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
 #[derive(Debug)]
 pub struct Gpu {
     info: wgpu::AdapterInfo,
+    /// Whether the fragment stage may write storage buffers.
+    fragment_writes: bool,
     /// The device.
     pub device: wgpu::Device,
     /// Its queue.
@@ -102,8 +112,8 @@ pub fn groups(invocations: u64) -> [u32; 2] {
 }
 
 impl Gpu {
-    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else the most powerful; OpenGL's only where
-    /// there is no other.
+    /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else
+    /// the most powerful; OpenGL's only where there is no other.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::NoDevice`].
@@ -154,6 +164,8 @@ impl Gpu {
                 }
             };
             let info = adapter.get_info();
+            let downlevel = adapter.get_downlevel_capabilities().flags;
+            let fragment_writes = downlevel.contains(wgpu::DownlevelFlags::FRAGMENT_WRITABLE_STORAGE);
             let descriptor = wgpu::DeviceDescriptor {
                 label: Some("nmt"),
                 required_features: adapter.features() & wanted,
@@ -162,7 +174,12 @@ impl Gpu {
                 ..Default::default()
             };
             match adapter.request_device(&descriptor).await {
-                Ok((device, queue)) => Ok(Self { info, device, queue }),
+                Ok((device, queue)) => Ok(Self {
+                    info,
+                    fragment_writes,
+                    device,
+                    queue,
+                }),
                 Err(error) => Err(GpuError::NoDevice {
                     adapter: info.name,
                     reason: error.to_string(),
@@ -201,6 +218,11 @@ impl Gpu {
     /// Whether shaders may `enable f16`.
     pub fn has_f16(&self) -> bool {
         self.device.features().contains(wgpu::Features::SHADER_F16)
+    }
+
+    /// Whether the fragment stage has atomic operations on storage buffers.
+    pub fn has_fragment_atomics(&self) -> bool {
+        self.fragment_writes
     }
 
     /// Whether f32 render targets may be blended into.
@@ -256,16 +278,21 @@ impl Gpu {
     /// Checks that a storage buffer may be so large.
     fn fits(&self, what: &'static str, bytes: u64) -> Result<u64, GpuError> {
         let limits = self.device.limits();
-        let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        if bytes > most {
-            Err(GpuError::TooLarge {
-                adapter: self.name(),
-                what,
-                bytes,
-                most,
-            })
+        if bytes > limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) {
+            Err(self.too_large(what, bytes))
         } else {
             Ok(bytes.max(16).next_multiple_of(4))
+        }
+    }
+
+    /// What is said of data that no buffer holds.
+    pub(super) fn too_large(&self, what: &'static str, bytes: u64) -> GpuError {
+        let limits = self.device.limits();
+        GpuError::TooLarge {
+            adapter: self.name(),
+            what,
+            bytes,
+            most: limits.max_buffer_size.min(limits.max_storage_buffer_binding_size),
         }
     }
 
@@ -412,13 +439,15 @@ impl Gpu {
 
     /// Whether [`Self::timed`] reads timestamps of the device, rather than the clock.
     ///
-    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before it has run.
+    /// Adapters on the CPU write the timestamps of compute passes when they like: lavapipe writes both of a pass before
+    /// it has run.
     pub fn stamps(&self) -> bool {
         self.has_timestamps() && !self.is_software()
     }
 
-    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by timestamps of the device, or where
-    /// those are missing or not to be trusted by the clock around each, which is then submitted and waited for by itself.
+    /// Records passes by their index, runs them one after the other, waits, and says how long each took \[s\]: by
+    /// timestamps of the device, or where those are missing or not to be trusted by the clock around each, which is
+    /// then submitted and waited for by itself.
     ///
     /// # Errors
     /// [`GpuError::Refused`].

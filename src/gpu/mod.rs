@@ -3,18 +3,20 @@
 //! Any adapter will do, Mesa's lavapipe included. Where there is none, [`Gpu::shared`] says so, and whoever asked skips
 //! visibly or fails.
 
-pub mod classic;
 pub mod compute;
 #[cfg(test)]
 mod core;
 pub mod device;
 pub mod list;
-pub mod method;
 pub mod pipeline;
 pub mod tiles;
+#[cfg(test)]
+mod twins;
+pub mod upload;
 
+pub use crate::shader::MethodShader;
 pub use device::{Gpu, GpuError};
-pub use method::{MethodShader, Pass1};
+pub use upload::DeviceList;
 
 #[cfg(test)]
 pub(crate) mod tests {

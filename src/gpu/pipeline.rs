@@ -1,365 +1,67 @@
-//! Both passes and the resolve as a renderer makes them: render passes whose targets are blended into, in whatever order the fragments come.
+//! Both passes and the resolve as a renderer makes them: render passes whose targets are blended into, in whatever
+//! order the fragments come.
 //!
-//! [`Shaders`] is the WGSL of a frame, whole modules that can be lifted into a renderer; [`Drawing`] a fragment list on the device, drawn as one point a
-//! fragment; [`Pipeline`] puts the one before the other. `docs/integration.md` says what a renderer does otherwise.
-//!
-//! | pass | targets | blending |
-//! |---|---|---|
-//! | 1 | sums of the method and number of fragments, four to a texture | add |
-//! | 1 | (−v, v) as rg32float | max |
-//! | 2 | Σ a w C and Σ a w | add |
-//! | resolve | colour | none |
-//!
-//! Where f32 targets cannot be blended into, [`TargetPrecision::Half`] keeps sums as f16 and both ends of the range in depth buffers, a draw each.
+//! [`crate::shader::passes`] has the text and says what the passes write; [`Pipeline`] puts a method before a fragment
+//! list on the device, which is drawn as one point a fragment. `docs/integration.md` says what a renderer does
+//! otherwise.
 
 use super::device::{Gpu, GpuError, Stamps};
-use super::method::{Composite, MethodShader};
-use crate::export::recentred::with_rounding;
+use super::upload::{self, Chunk, DeviceList, frame};
 use crate::pixel::{CameraPlanes, FragmentList};
+use crate::shader::MethodShader;
+use crate::shader::passes::{Channel, Holds, Limits, Shaders, Target, TargetPrecision};
 use wgpu::TextureFormat::{Depth32Float, R16Float, R32Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float};
 
 /// What stands in a clear pixel of the range: below −v of any fragment, and above none.
 const NOTHING: f64 = -3.0e38;
 
-/// How sums are stored between the passes. Both ends of a pixel's range are f32 in any case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum TargetPrecision {
-    /// All f32; blending needs the feature `float32-blendable`.
-    #[default]
-    Full,
-    /// Σ a w C and Σ a w as rgba16float, which rounds to 11 bits with every fragment; moments f32.
-    HalfColor,
-    /// All sums f16, which every device blends into; the range through two depth buffers.
-    ///
-    /// # Accuracy
-    /// For networks only: methods that reconstruct a curve from moments need other constants for 16 bits, and answer NaN with these. Test
-    /// `half_storage_costs_little`.
-    Half,
-}
-
-impl TargetPrecision {
-    /// Every one.
-    pub const ALL: [Self; 3] = [Self::Full, Self::HalfColor, Self::Half];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Full => "full",
-            Self::HalfColor => "half-color",
-            Self::Half => "half",
-        }
-    }
-
-    /// Whether passes blend into f32 targets.
-    pub fn blends_f32(self) -> bool {
-        self != Self::Half
-    }
-
-    fn color(self) -> wgpu::TextureFormat {
-        if self == Self::Full { Rgba32Float } else { Rgba16Float }
+/// What this device allows.
+pub fn limits_of(gpu: &Gpu) -> Limits {
+    let limits = gpu.device.limits();
+    Limits {
+        bytes_per_pixel: limits.max_color_attachment_bytes_per_sample,
+        targets: limits.max_color_attachments,
     }
 }
 
-/// What a device lets pass 1 write at once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Bytes of one pixel over all targets of a pass.
-    pub bytes_per_pixel: u32,
-    /// Targets of a pass.
-    pub targets: u32,
-}
-
-impl Limits {
-    /// What every WebGPU device allows.
-    pub const WEBGPU: Self = Self {
-        bytes_per_pixel: 32,
-        targets: 8,
-    };
-
-    /// What this device allows.
-    pub fn of(gpu: &Gpu) -> Self {
-        let limits = gpu.device.limits();
-        Self {
-            bytes_per_pixel: limits.max_color_attachment_bytes_per_sample,
-            targets: limits.max_color_attachments,
-        }
+fn format_of(target: Target) -> wgpu::TextureFormat {
+    match (target.channel, target.channels) {
+        (Channel::Depth, _) => Depth32Float,
+        (Channel::F16, 1) => R16Float,
+        (Channel::F16, 2) => Rg16Float,
+        (Channel::F16, _) => Rgba16Float,
+        (Channel::F32, 1) => R32Float,
+        (Channel::F32, 2) => Rg32Float,
+        (Channel::F32, _) => Rgba32Float,
     }
 }
 
-/// A render target of pass 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Target {
-    /// Its format: one, two or four numbers.
-    pub format: wgpu::TextureFormat,
-    /// What it holds.
-    pub holds: Holds,
-}
-
-/// What a render target of pass 1 holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Holds {
-    /// So many of the numbers that are added up, from the one of this index on; the number after the last sum is the number of fragments.
-    Added {
-        /// Index of the first.
-        first: usize,
-        /// How many.
-        count: usize,
-    },
-    /// (−v, v), of which the greatest is kept: −nearest and farthest.
-    Range,
-    /// The least v, scaled, in a depth buffer.
-    Nearest,
-    /// The greatest v, scaled, in a depth buffer.
-    Farthest,
-}
-
-impl Target {
-    /// The targets that a method needs.
-    pub fn of(method: &MethodShader, storage: TargetPrecision) -> Vec<Self> {
-        let numbers = method.sums + usize::from(method.range);
-        let half = storage == TargetPrecision::Half;
-        let mut targets: Vec<Self> = (0..numbers)
-            .step_by(4)
-            .map(|first| {
-                let count = (numbers - first).min(4);
-                let format = match count {
-                    1 if half => R16Float,
-                    1 => R32Float,
-                    2 if half => Rg16Float,
-                    2 => Rg32Float,
-                    _ if half => Rgba16Float,
-                    _ => Rgba32Float,
-                };
-                Self {
-                    format,
-                    holds: Holds::Added { first, count },
-                }
-            })
-            .collect();
-        match method.range {
-            false => {}
-            true if half => targets.extend([Holds::Nearest, Holds::Farthest].map(|holds| Self {
-                format: Depth32Float,
-                holds,
-            })),
-            true => targets.push(Self {
-                format: Rg32Float,
-                holds: Holds::Range,
-            }),
-        }
-        targets
-    }
-
-    /// Bytes of a pixel.
-    pub fn bytes(self) -> u32 {
-        self.channels()
-            * if matches!(self.format, R16Float | Rg16Float | Rgba16Float) {
-                2
-            } else {
-                4
-            }
-    }
-
-    fn channels(self) -> u32 {
-        match self.format {
-            R32Float | R16Float | Depth32Float => 1,
-            Rg32Float | Rg16Float => 2,
-            _ => 4,
-        }
-    }
-
-    /// Whether it is a depth buffer.
-    fn is_depth(self) -> bool {
-        self.format == Depth32Float
-    }
-
-    fn wgsl_type(self) -> &'static str {
-        ["f32", "vec2<f32>", "vec4<f32>"][self.channels() as usize / 2]
-    }
-
-    /// What a fragment writes there.
-    fn terms(self, sums: usize) -> String {
-        let terms: Vec<String> = match self.holds {
-            Holds::Range => vec!["-seen.v".to_owned(), "seen.v".to_owned()],
-            Holds::Nearest | Holds::Farthest => unreachable!("depth buffers have a shader of their own"),
-            Holds::Added { first, .. } => (0..self.channels() as usize)
-                .map(|i| match first + i {
-                    i if i < sums => format!("terms[{i}]"),
-                    i if i == sums => "1.0".to_owned(),
-                    _ => "0.0".to_owned(),
-                })
-                .collect(),
-        };
-        if terms.len() == 1 {
-            terms[0].clone()
-        } else {
-            format!("{}({})", self.wgsl_type(), terms.join(", "))
-        }
-    }
-
-    fn blend(self) -> wgpu::BlendState {
-        let operation = if self.holds == Holds::Range {
-            wgpu::BlendOperation::Max
-        } else {
-            wgpu::BlendOperation::Add
-        };
-        let both = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation,
-        };
-        wgpu::BlendState {
-            color: both,
-            alpha: both,
-        }
-    }
-
-    fn clear(self) -> wgpu::Color {
-        match self.holds {
-            Holds::Range => wgpu::Color {
-                r: NOTHING,
-                g: NOTHING,
-                b: 0.0,
-                a: 0.0,
-            },
-            _ => wgpu::Color::TRANSPARENT,
-        }
-    }
-}
-
-/// The shader source of a frame: whole WGSL modules.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shaders {
-    /// All targets of pass 1.
-    pub targets: Vec<Target>,
-    /// Pass 1, and the indices of the targets that it writes; in several draws where the device does not write all at once. Entry points `oit_point`
-    /// and `oit_pass1`.
-    pub pass1: Vec<(String, Vec<usize>)>,
-    /// Pass 2; entry points `oit_point` and `oit_pass2`.
-    pub pass2: String,
-    /// Resolve; entry points `oit_everywhere` and `oit_resolve`.
-    pub resolve: String,
-}
-
-pub(super) const FRAME: &str = include_str!("pipeline/frame.wgsl");
-const POINTS: &str = include_str!("pipeline/points.wgsl");
-const PASS1: &str = include_str!("pipeline/pass1.wgsl");
-const END: &str = include_str!("pipeline/end.wgsl");
-const STATE: &str = include_str!("pipeline/state.wgsl");
-const PASS2: &str = include_str!("pipeline/pass2.wgsl");
-const RESOLVE: &str = include_str!("pipeline/resolve.wgsl");
-
-/// `fn oit_composite` of a way to composite.
-pub(super) fn composite(composite: Composite) -> &'static str {
-    match composite {
-        Composite::Normalised => include_str!("pipeline/normalised.wgsl"),
-        Composite::Sum => include_str!("pipeline/sum.wgsl"),
-        Composite::Average => include_str!("pipeline/average.wgsl"),
-    }
-}
-
-impl Shaders {
-    /// Shader source for a method on a device with these limits.
-    pub fn new(method: &MethodShader, storage: TargetPrecision, limits: Limits) -> Self {
-        let targets = Target::of(method, storage);
-        // Pass 1 in as few draws as the limits allow; a draw has one target at least, and a depth buffer is the only one of its draw.
-        let mut draws: Vec<Vec<usize>> = Vec::new();
-        let mut bytes = 0;
-        for (index, target) in targets.iter().enumerate() {
-            bytes += target.bytes();
-            match draws.last_mut() {
-                Some(draw)
-                    if !target.is_depth()
-                        && bytes <= limits.bytes_per_pixel
-                        && draw.len() < limits.targets as usize =>
-                {
-                    draw.push(index)
-                }
-                _ => {
-                    bytes = target.bytes();
-                    draws.push(vec![index]);
-                }
-            }
-        }
-        let module = method.module();
-        // What thin pixels take for noise follows from how sums are stored.
-        let module = if storage == TargetPrecision::Half {
-            with_rounding(&module, crate::features::SumPrecision::F16.rounding().unit)
-        } else {
-            module
-        };
-        let pass1 = draws.into_iter().map(|draw| {
-            if targets[draw[0]].is_depth() {
-                return (format!("{module}{FRAME}{POINTS}{END}"), draw);
-            }
-            let declared = |(location, &i): (usize, &usize)| {
-                format!("@location({location}) target{i}: {},", targets[i].wgsl_type())
-            };
-            let declared: Vec<String> = draw.iter().enumerate().map(declared).collect();
-            let terms: Vec<String> = draw.iter().map(|&i| targets[i].terms(method.sums)).collect();
-            let entry = PASS1
-                .replace("OIT_TARGETS", &declared.join("\n    "))
-                .replace("OIT_TERMS", &terms.join(", "));
-            (format!("{module}{FRAME}{POINTS}{entry}"), draw)
-        });
-        let state = state(&targets, method.sums);
-        Self {
-            pass1: pass1.collect(),
-            pass2: format!(
-                "{module}{FRAME}{POINTS}{state}{}",
-                PASS2.replace("OIT_RANGE", &range(&targets))
-            ),
-            resolve: format!(
-                "const OIT_SUMS = {}u;\n\n{FRAME}{state}{}{RESOLVE}",
-                method.sums,
-                composite(method.composite)
-            ),
-            targets,
-        }
-    }
-}
-
-/// `fn oit_sums`, which reads what pass 1 left.
-fn state(targets: &[Target], sums: usize) -> String {
-    let (mut textures, mut loads) = (Vec::new(), Vec::new());
-    for (i, target) in targets.iter().enumerate() {
-        let kind = if target.is_depth() {
-            "texture_depth_2d"
-        } else {
-            "texture_2d<f32>"
-        };
-        textures.push(format!("@group(2) @binding({i}) var oit_target{i}: {kind};"));
-        if matches!(target.holds, Holds::Added { first, .. } if first < sums) {
-            loads.push(format!("let target{i} = textureLoad(oit_target{i}, at, 0);"));
-        }
-    }
-    let added = |i: usize| format!("target{}[{}]", i / 4, i % 4);
-    let parts: Vec<String> = (0..sums).map(added).collect();
-    let counted = targets.iter().any(|t| !matches!(t.holds, Holds::Added { .. }));
-    let count = if counted {
-        format!("textureLoad(oit_target{}, at, 0)[{}]", sums / 4, sums % 4)
+fn blend_of(target: Target) -> wgpu::BlendState {
+    let operation = if target.holds == Holds::Range {
+        wgpu::BlendOperation::Max
     } else {
-        "0.0".to_owned()
+        wgpu::BlendOperation::Add
     };
-    STATE
-        .replace("OIT_TEXTURES", &textures.join("\n"))
-        .replace("OIT_LOADS", &loads.join("\n    "))
-        .replace("OIT_PARTS", &parts.join(", "))
-        .replace("OIT_COUNT", &count)
+    let both = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation,
+    };
+    wgpu::BlendState {
+        color: both,
+        alpha: both,
+    }
 }
 
-/// Range of a pixel's fragments; that of the frame where the method does not keep it.
-fn range(targets: &[Target]) -> String {
-    let place = |holds: Holds| targets.iter().position(|t| t.holds == holds);
-    match (place(Holds::Range), place(Holds::Nearest).zip(place(Holds::Farthest))) {
-        (Some(range), _) => format!(
-            "let ends = textureLoad(oit_target{range}, at, 0);\n    let nearest = -ends.x;\n    let farthest = ends.y;"
-        ),
-        (None, Some((nearest, farthest))) => format!(
-            "let nearest = textureLoad(oit_target{nearest}, at, 0) * oit_frame.scale.y;\n    let farthest = textureLoad(oit_target{farthest}, at, 0) * \
-             oit_frame.scale.y;"
-        ),
-        (None, None) => "let nearest = oit_frame.range.x;\n    let farthest = oit_frame.range.y;".to_owned(),
+fn clear_of(target: Target) -> wgpu::Color {
+    match target.holds {
+        Holds::Range => wgpu::Color {
+            r: NOTHING,
+            g: NOTHING,
+            b: 0.0,
+            a: 0.0,
+        },
+        _ => wgpu::Color::TRANSPARENT,
     }
 }
 
@@ -373,10 +75,12 @@ struct Layouts {
     weighted: wgpu::BindGroupLayout,
     /// What pass 1 left.
     state: wgpu::BindGroupLayout,
+    /// Cores, written in pass 1 and read in pass 2; empty where the method keeps none.
+    cores: [wgpu::BindGroupLayout; 2],
 }
 
 impl Layouts {
-    fn new(gpu: &Gpu, targets: &[Target]) -> Self {
+    fn new(gpu: &Gpu, targets: &[Target], has_core: bool) -> Self {
         let layout = |label, visibility, types: &[wgpu::BindingType]| {
             let entry = |(binding, &ty): (u32, &wgpu::BindingType)| wgpu::BindGroupLayoutEntry {
                 binding,
@@ -405,7 +109,20 @@ impl Layouts {
             multisampled: false,
         };
         let state: Vec<_> = targets.iter().map(|t| texture(t.is_depth())).collect();
+        let core = |read_only| {
+            let buffer = wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            };
+            layout(
+                "cores",
+                wgpu::ShaderStages::FRAGMENT,
+                &[buffer][..usize::from(has_core)],
+            )
+        };
         Self {
+            cores: [false, true].map(core),
             frame: layout("frame", wgpu::ShaderStages::VERTEX_FRAGMENT, &[uniform]),
             fragments: fragments_layout(gpu),
             weighted: layout("weighted colour", wgpu::ShaderStages::FRAGMENT, &[texture(false)]),
@@ -432,34 +149,6 @@ fn fragments_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-/// A fragment list on the device, ready to be drawn.
-#[derive(Debug)]
-pub struct Drawing {
-    width: u32,
-    height: u32,
-    /// Greatest v.
-    greatest: f32,
-    /// Numbers of fragments, and their buffers; several where a buffer does not hold all.
-    chunks: Vec<(u32, wgpu::BindGroup)>,
-}
-
-/// Columns and rows of the image that a list makes.
-pub(super) fn size_of(list: &FragmentList) -> Result<(u32, u32), GpuError> {
-    let none = |why: String| GpuError::NoImage(why);
-    let (width, height) = list
-        .size()
-        .ok_or_else(|| none("the fragment list has neither width nor height; add both to the file".to_owned()))?;
-    if list.pixels() == 0 {
-        return Err(none(format!("{width} x {height} has no pixel")));
-    }
-    if list.color().is_none() && !list.is_empty() {
-        return Err(none(
-            "the fragments have no color; add a float32 array 'color' of shape [F, 3] to the file".to_owned(),
-        ));
-    }
-    Ok((width, height))
-}
-
 /// What v must lie below for its scale to be a normal f32.
 const MAX_SCALED: f32 = 8.507_059e37;
 
@@ -470,64 +159,14 @@ fn scale_below_1(v: f32) -> f32 {
     f32::from_bits(((127 - (e + 1)).clamp(1, 253) as u32) << 23)
 }
 
-impl Drawing {
-    /// Uploads a list.
-    ///
-    /// # Errors
-    /// [`GpuError::NoImage`] where the list has fragments without colours, or no size; [`GpuError::TooLarge`].
-    pub fn new(gpu: &Gpu, list: &FragmentList) -> Result<Self, GpuError> {
-        // A colour takes most: 12 bytes a fragment.
-        let limits = gpu.device.limits();
-        let most = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size) / 12;
-        Self::in_chunks(gpu, list, most.min(1 << 26) as usize)
-    }
-
-    fn in_chunks(gpu: &Gpu, list: &FragmentList, most: usize) -> Result<Self, GpuError> {
-        let (width, height) = size_of(list)?;
-        let mut pixel_of = Vec::with_capacity(list.len());
-        for p in 0..list.pixels() {
-            pixel_of.extend(list.range(p).map(|_| p as u32));
-        }
-        let color = list.color().unwrap_or(&[]);
-        let layout = fragments_layout(gpu);
-        let mut chunks = Vec::new();
-        for first in (0..list.len()).step_by(most) {
-            let range = first..(first + most).min(list.len());
-            let buffers = [
-                gpu.upload("pixels of fragments", &pixel_of[range.clone()])?,
-                gpu.upload("view_z", &list.view_z()[range.clone()])?,
-                gpu.upload("alpha", &list.alpha()[range.clone()])?,
-                gpu.upload("color", color[range.clone()].as_flattened())?,
-            ];
-            let entries: Vec<_> = (0..)
-                .zip(&buffers)
-                .map(|(i, b)| wgpu::BindGroupEntry {
-                    binding: i,
-                    resource: b.as_entire_binding(),
-                })
-                .collect();
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("fragments"),
-                layout: &layout,
-                entries: &entries,
-            });
-            chunks.push((range.len() as u32, group));
-        }
-        let greatest = list.depth_range().map_or(1.0, |(_, greatest)| greatest);
-        Ok(Self {
-            width,
-            height,
-            greatest,
-            chunks,
-        })
-    }
-}
-
 /// A method made ready to draw a list: shaders, render targets, background.
 #[derive(Debug)]
-pub struct Pipeline<'a> {
+pub struct Pipeline {
     name: String,
-    drawing: &'a Drawing,
+    width: u32,
+    height: u32,
+    /// Numbers of fragments and their buffers, a chunk each.
+    chunks: Vec<(u32, wgpu::BindGroup)>,
     targets: Vec<(Target, wgpu::TextureView)>,
     weighted: wgpu::TextureView,
     image: wgpu::Texture,
@@ -537,6 +176,8 @@ pub struct Pipeline<'a> {
     frame: wgpu::BindGroup,
     state: wgpu::BindGroup,
     result: wgpu::BindGroup,
+    /// Cores, where the method keeps them, and their bind groups in pass 1 and pass 2.
+    core: Option<(wgpu::Buffer, [wgpu::BindGroup; 2])>,
 }
 
 /// Seconds of a frame's passes; see [`Gpu::timed`].
@@ -567,55 +208,73 @@ pub struct Rendered {
 const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 (pipeline::TargetPrecision::Half, for networks), let compute passes \
     add them up (gpu::tiles, which needs no blending), or choose another adapter with WGPU_ADAPTER_NAME";
 
-impl<'a> Pipeline<'a> {
+/// What it says where the fragment stage has no atomics on buffers.
+const ATOMICS: &str = "atomic operations on storage buffers in the fragment stage, by which a core is kept. Let compute \
+    passes keep it (gpu::tiles), or choose another adapter with WGPU_ADAPTER_NAME";
+
+impl Pipeline {
     /// Makes a method ready. `range` is what its depths are measured by; see [`MethodShader::depth_range`].
     ///
     /// # Errors
     /// [`GpuError::Lacks`] where the device cannot blend into f32 targets, and [`GpuError::Refused`].
     pub fn new(
         gpu: &Gpu,
-        drawing: &'a Drawing,
+        list: &DeviceList,
         method: &MethodShader,
         range: [f32; 2],
         background: [f32; 3],
-        storage: TargetPrecision,
+        precision: TargetPrecision,
     ) -> Result<Self, GpuError> {
-        Self::within(gpu, drawing, method, range, background, storage, Limits::of(gpu))
+        Self::within(gpu, list, method, range, background, precision, limits_of(gpu))
     }
 
     fn within(
         gpu: &Gpu,
-        drawing: &'a Drawing,
+        list: &DeviceList,
         method: &MethodShader,
         range: [f32; 2],
         background: [f32; 3],
-        storage: TargetPrecision,
+        precision: TargetPrecision,
         limits: Limits,
     ) -> Result<Self, GpuError> {
-        if storage.blends_f32() && !gpu.blends_f32() {
+        if precision.blends_f32() && !gpu.blends_f32() {
             return Err(GpuError::Lacks {
                 adapter: gpu.name(),
                 feature: BLENDING,
             });
         }
-        if storage == TargetPrecision::Half && drawing.greatest >= MAX_SCALED {
+        if precision == TargetPrecision::Half && list.greatest >= MAX_SCALED {
             return Err(GpuError::NoImage(format!(
                 "view_z {:e} is too far away for a depth buffer, take a smaller unit",
-                drawing.greatest
+                list.greatest
             )));
         }
+        if method.core.is_some() && !gpu.has_fragment_atomics() {
+            return Err(GpuError::Lacks {
+                adapter: gpu.name(),
+                feature: ATOMICS,
+            });
+        }
+        if method.core.is_some() && precision == TargetPrecision::Half {
+            return Err(GpuError::Source {
+                label: method.name.clone(),
+                reason: "a core is taken out of its pixel's sums again, which f16 is too coarse for".to_owned(),
+            });
+        }
+        let (width, height) = list.image_size()?;
+        let cores = upload::core(gpu, method, list.pixels)?;
         let Shaders {
             targets,
             pass1,
             pass2,
             resolve,
-        } = Shaders::new(method, storage, limits);
+        } = Shaders::new(method, precision, limits);
         gpu.checked(&method.name, || {
             let device = &gpu.device;
-            let layouts = Layouts::new(gpu, &targets);
+            let layouts = Layouts::new(gpu, &targets, method.core.is_some());
             let size = wgpu::Extent3d {
-                width: drawing.width,
-                height: drawing.height,
+                width,
+                height,
                 depth_or_array_layers: 1,
             };
             let texture = |label, format, usage| {
@@ -631,10 +290,14 @@ impl<'a> Pipeline<'a> {
                 })
             };
             let read = wgpu::TextureUsages::TEXTURE_BINDING;
-            let format = storage.color();
+            let format = if precision == TargetPrecision::Full {
+                Rgba32Float
+            } else {
+                Rgba16Float
+            };
             let views: Vec<_> = targets
                 .iter()
-                .map(|t| texture("pass 1", t.format, read).create_view(&Default::default()))
+                .map(|t| texture("pass 1", format_of(*t), read).create_view(&Default::default()))
                 .collect();
             let weighted = texture("pass 2", format, read).create_view(&Default::default());
             let image = texture("image", Rgba32Float, wgpu::TextureUsages::COPY_SRC);
@@ -650,28 +313,33 @@ impl<'a> Pipeline<'a> {
                     entries: &entries,
                 })
             };
-            let words = [range[0].to_bits(), range[1].to_bits(), drawing.width, drawing.height];
-            let words = [
-                words,
-                [
-                    background[0].to_bits(),
-                    background[1].to_bits(),
-                    background[2].to_bits(),
-                    0,
-                ],
-            ];
-            let scale = scale_below_1(drawing.greatest);
-            let scale = [scale.to_bits(), scale.recip().to_bits(), 0, 0];
-            let frame = gpu.uniform("frame", [words, [scale, [0; 4]]].as_flattened().as_flattened());
+            let chunk = |chunk: &Chunk| {
+                let buffers = [&chunk.pixel_of, &chunk.view_z, &chunk.alpha, &chunk.color];
+                let resources = buffers.map(wgpu::Buffer::as_entire_binding).to_vec();
+                (chunk.fragments, group("fragments", &layouts.fragments, resources))
+            };
+            let frame = frame(
+                gpu,
+                method,
+                range,
+                (width, height),
+                background,
+                scale_below_1(list.greatest),
+            );
 
             let added = Target {
-                format,
+                channels: 4,
+                channel: if format == Rgba32Float {
+                    Channel::F32
+                } else {
+                    Channel::F16
+                },
                 holds: Holds::Added { first: 0, count: 4 },
             };
             let blended = |t: Target| {
                 Some(wgpu::ColorTargetState {
-                    format: t.format,
-                    blend: Some(t.blend()),
+                    format: format_of(t),
+                    blend: Some(blend_of(t)),
                     write_mask: wgpu::ColorWrites::ALL,
                 })
             };
@@ -687,14 +355,24 @@ impl<'a> Pipeline<'a> {
                     Holds::Farthest => Some(wgpu::CompareFunction::Greater),
                     _ => None,
                 };
-                let layout = [Some(&layouts.frame), Some(&layouts.fragments)];
+                let layout = [
+                    Some(&layouts.frame),
+                    Some(&layouts.fragments),
+                    None,
+                    Some(&layouts.cores[0]),
+                ];
+                let layout = if cores.is_some() && draw[0] == 0 {
+                    &layout[..]
+                } else {
+                    &layout[..2]
+                };
                 (
                     render_pipeline(
                         gpu,
                         "pass 1",
                         &source,
                         ["oit_point", "oit_pass1"],
-                        &layout,
+                        layout,
                         points,
                         depth,
                         &written,
@@ -702,7 +380,13 @@ impl<'a> Pipeline<'a> {
                     draw,
                 )
             });
-            let all = [Some(&layouts.frame), Some(&layouts.fragments), Some(&layouts.state)];
+            let all = [
+                Some(&layouts.frame),
+                Some(&layouts.fragments),
+                Some(&layouts.state),
+                Some(&layouts.cores[1]),
+            ];
+            let all = if cores.is_some() { &all[..] } else { &all[..3] };
             let last = [Some(&layouts.frame), Some(&layouts.weighted), Some(&layouts.state)];
             let plain = [Some(wgpu::ColorTargetState {
                 format: Rgba32Float,
@@ -711,14 +395,16 @@ impl<'a> Pipeline<'a> {
             })];
             Self {
                 name: method.name.clone(),
-                drawing,
+                width,
+                height,
+                chunks: list.chunks.iter().filter(|c| c.fragments > 0).map(chunk).collect(),
                 pass1: pass1.collect(),
                 pass2: render_pipeline(
                     gpu,
                     "pass 2",
                     &pass2,
                     ["oit_point", "oit_pass2"],
-                    &all,
+                    all,
                     points,
                     None,
                     &[blended(added)],
@@ -744,6 +430,11 @@ impl<'a> Pipeline<'a> {
                     &layouts.weighted,
                     vec![wgpu::BindingResource::TextureView(&weighted)],
                 ),
+                core: cores.map(|buffer| {
+                    let bound = |layout| group("cores", layout, vec![buffer.as_entire_binding()]);
+                    let groups = [0, 1].map(|i| bound(&layouts.cores[i]));
+                    (buffer, groups)
+                }),
                 targets: targets.into_iter().zip(views).collect(),
                 weighted,
                 image,
@@ -764,7 +455,9 @@ impl<'a> Pipeline<'a> {
                         .iter()
                         .map(|&i| &self.targets[i])
                         .filter(|(target, _)| !target.is_depth());
-                    let attachments: Vec<_> = color.map(|(target, view)| attachment(view, target.clear())).collect();
+                    let attachments: Vec<_> = color
+                        .map(|(target, view)| attachment(view, clear_of(*target)))
+                        .collect();
                     let (first, view) = &self.targets[written[0]];
                     let depth = first.is_depth().then(|| wgpu::RenderPassDepthStencilAttachment {
                         view,
@@ -775,9 +468,16 @@ impl<'a> Pipeline<'a> {
                         }),
                         stencil_ops: None,
                     });
+                    let core = self.core.as_ref().filter(|_| index == 0);
+                    if let Some((buffer, _)) = core {
+                        encoder.clear_buffer(buffer, 0, None);
+                    }
                     let mut pass = begin(encoder, "pass 1", &attachments, depth, stamps);
                     pass.set_pipeline(pipeline);
                     pass.set_bind_group(0, &self.frame, &[]);
+                    if let Some((_, groups)) = core {
+                        pass.set_bind_group(3, &groups[0], &[]);
+                    }
                     self.draw(&mut pass);
                 }
                 None if index == draws => {
@@ -791,6 +491,9 @@ impl<'a> Pipeline<'a> {
                     pass.set_pipeline(&self.pass2);
                     pass.set_bind_group(0, &self.frame, &[]);
                     pass.set_bind_group(2, &self.state, &[]);
+                    if let Some((_, groups)) = &self.core {
+                        pass.set_bind_group(3, &groups[1], &[]);
+                    }
                     self.draw(&mut pass);
                 }
                 None => {
@@ -824,15 +527,15 @@ impl<'a> Pipeline<'a> {
     pub fn render(&self, gpu: &Gpu) -> Result<Rendered, GpuError> {
         let seconds = self.run(gpu)?;
         Ok(Rendered {
-            width: self.drawing.width,
-            height: self.drawing.height,
+            width: self.width,
+            height: self.height,
             pixels: self.image(gpu)?,
             seconds,
         })
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        for (fragments, group) in &self.drawing.chunks {
+        for (fragments, group) in &self.chunks {
             pass.set_bind_group(1, group, &[]);
             pass.draw(0..*fragments, 0..1);
         }
@@ -847,7 +550,7 @@ impl<'a> Pipeline<'a> {
     /// [`GpuError::Refused`].
     pub fn image(&self, gpu: &Gpu) -> Result<Vec<[f32; 3]>, GpuError> {
         // Rows of a copy start at multiples of 256 bytes. A few rows at a time keep the buffer small.
-        let (width, height) = (self.drawing.width, self.drawing.height);
+        let (width, height) = (self.width, self.height);
         let row = (16 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let band = (u32::pow(2, 26) / row).clamp(1, height);
         let buffer = gpu.zeros("image", u64::from(row) * u64::from(band))?;
@@ -973,14 +676,16 @@ fn render_pipeline(
     })
 }
 
-/// Draws a list with a method in render passes. The camera's planes and the depth range are the list's own where none are given.
+/// Draws a list with a method in render passes. The camera's planes and the depth range are the list's own where none
+/// are given.
 ///
 /// # Accuracy
-/// Sums are f32, added in the order in which fragments are drawn. Against the CPU's image, whose features are f64, no channel of 99.9 % of the pixels is
-/// off by more than 1e-3; test `the_image_is_the_cpu_evaluators`.
+/// Sums are f32, added in the order in which fragments are drawn. Against the CPU's image, whose features are f64, no
+/// channel of 99.9 % of the pixels is off by more than 1e-3; test `the_image_is_the_cpu_evaluators`.
 ///
 /// # Errors
-/// [`GpuError::NoImage`] where the list makes none, [`GpuError::Lacks`] where the device cannot blend into f32 targets; and other [`GpuError`].
+/// [`GpuError::NoImage`] where the list makes none, [`GpuError::Lacks`] where the device cannot blend into f32 targets;
+/// and other [`GpuError`].
 pub fn render(
     gpu: &Gpu,
     method: &MethodShader,
@@ -989,9 +694,9 @@ pub fn render(
     depth_range: Option<(f32, f32)>,
     background: [f32; 3],
 ) -> Result<Rendered, GpuError> {
-    let drawing = Drawing::new(gpu, list)?;
     let range = method.depth_range(list, planes, depth_range)?;
-    Pipeline::new(gpu, &drawing, method, range, background, TargetPrecision::Full)?.render(gpu)
+    let list = DeviceList::new(gpu, list)?;
+    Pipeline::new(gpu, &list, method, range, background, TargetPrecision::Full)?.render(gpu)
 }
 
 #[cfg(test)]
@@ -1003,7 +708,7 @@ pub(crate) mod tests {
     use crate::gpu::tests::gpu;
     use crate::model::{Mlp, file};
     use crate::oit::neural::Skip;
-    use crate::oit::{Context, Method, neural::Neural, weights};
+    use crate::oit::{Context, Method, names_with_shader, neural::Neural, shader_of, weights};
     use crate::scene;
     use std::path::Path;
 
@@ -1014,7 +719,7 @@ pub(crate) mod tests {
     }
 
     pub fn shader(mlp: &Mlp) -> MethodShader {
-        MethodShader::neural(mlp, Format::Wgsl).unwrap()
+        MethodShader::neural(mlp, Format::WGSL).unwrap()
     }
 
     pub fn built_in(name: &str, size: u32) -> FragmentList {
@@ -1057,7 +762,7 @@ pub(crate) mod tests {
     }
 
     /// The same pixels with the order of depths turned round: v0 v1 / v, in f32.
-    fn turned(list: &FragmentList) -> FragmentList {
+    pub fn turned(list: &FragmentList) -> FragmentList {
         let (v0, v1) = list.depth_range().unwrap();
         let view_z = list.view_z().iter().map(|v| v0 / v * v1).collect();
         let (width, height) = list.size().unwrap();
@@ -1068,10 +773,12 @@ pub(crate) mod tests {
             .unwrap()
     }
 
-    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same scenes with depths turned round.
+    /// Built-in scenes and shipped networks, 1e-3 in 99.9 % of the pixels and FLIP 0.002; the control is the same
+    /// scenes with depths turned round.
     ///
-    /// In a pixel of `hair` up to 160 fragments lie within a thin range, and an ulp in their depths shows: two f32 passes on the CPU, one of them with the
-    /// logarithm in f32, are as far apart as CPU and GPU are, 1e-3 to 2e-3 by the size of the image. So it is not among the scenes.
+    /// In a pixel of `hair` up to 160 fragments lie within a thin range, and an ulp in their depths shows: two f32
+    /// passes on the CPU, one of them with the logarithm in f32, are as far apart as CPU and GPU are, 1e-3 to 2e-3 by
+    /// the size of the image. So it is not among the scenes.
     #[test]
     fn the_image_is_the_cpu_evaluators() {
         let Some(gpu) = gpu() else { return };
@@ -1099,7 +806,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Render passes: what cannot be seen changes no channel by more than 1/512 and FLIP by at most 0.0005. Control: it changes something.
+    /// Render passes: what cannot be seen changes no channel by more than 1/512 and FLIP by at most 0.0005. Control: it
+    /// changes something.
     #[test]
     fn drawn_frames_leave_out_what_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
@@ -1160,7 +868,8 @@ pub(crate) mod tests {
         )
     }
 
-    /// Every pixel of [`odd`] follows from the exact rules, so that the CPU's image is met to 1e-6; control: another background.
+    /// Every pixel of [`odd`] follows from the exact rules, so that the CPU's image is met to 1e-6; control: another
+    /// background.
     #[test]
     fn odd_pixels_are_exact() {
         let Some(gpu) = gpu() else { return };
@@ -1186,11 +895,11 @@ pub(crate) mod tests {
         list: &FragmentList,
         limits: Limits,
         chunk: usize,
-        storage: TargetPrecision,
+        precision: TargetPrecision,
     ) -> (usize, Vec<[f32; 3]>) {
-        let drawing = Drawing::in_chunks(gpu, list, chunk).unwrap();
+        let on_device = DeviceList::in_chunks(gpu, list, chunk).unwrap();
         let range = method.depth_range(list, None, None).unwrap();
-        let pipeline = Pipeline::within(gpu, &drawing, method, range, GREY, storage, limits).unwrap();
+        let pipeline = Pipeline::within(gpu, &on_device, method, range, GREY, precision, limits).unwrap();
         pipeline.run(gpu).unwrap();
         (pipeline.pass1.len(), pipeline.image(gpu).unwrap())
     }
@@ -1203,7 +912,7 @@ pub(crate) mod tests {
         for (network, default, narrow) in [("recommended", 1, 3), ("moments-6", 2, 3)] {
             let method = shader(&model(network));
             let f32s = TargetPrecision::Full;
-            let whole = drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, f32s);
+            let whole = drawn(gpu, &method, &list, limits_of(gpu), usize::MAX, f32s);
             let split = drawn(gpu, &method, &list, Limits::WEBGPU, list.len() / 3, f32s);
             let least = drawn(
                 gpu,
@@ -1249,7 +958,7 @@ pub(crate) mod tests {
         let draw = |storage| {
             image(
                 &list,
-                &drawn(gpu, &method, &list, Limits::of(gpu), usize::MAX, storage).1,
+                &drawn(gpu, &method, &list, limits_of(gpu), usize::MAX, storage).1,
             )
         };
         let d = differences(&draw(TargetPrecision::HalfColor), &draw(TargetPrecision::Full));
@@ -1258,8 +967,8 @@ pub(crate) mod tests {
         assert!(most <= 0.01 && most > 1e-6, "{most:e}");
     }
 
-    /// All sums as f16, on a device that does not blend f32: the range is exact, so that what is exact stays so to 16 bits, and the image MSE of `foliage`
-    /// grows by less than a third. Control: storage as f16 is not that of f32.
+    /// All sums as f16, on a device that does not blend f32: the range is exact, so that what is exact stays so to 16
+    /// bits, and the image MSE of `foliage` grows by less than a third. Control: storage as f16 is not that of f32.
     #[test]
     fn half_storage_costs_little() {
         if gpu().is_none() {
@@ -1310,7 +1019,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// The shaders of every shipped network and classic method are valid WGSL, device or none; control: a method without its weight is not.
+    /// The shaders of every shipped network and classic method are valid WGSL, device or none; control: a method
+    /// without its weight is not.
     #[test]
     fn shaders_validate() {
         let validate = |source: &str| {
@@ -1323,7 +1033,7 @@ pub(crate) mod tests {
                 .map_err(|e| e.emit_to_string(source))
         };
         let networks = ["recommended", "small", "moments-6", "paper"].map(|name| shader(&model(name)));
-        let classic = crate::gpu::classic::NAMES.map(|name| MethodShader::classic(name).unwrap());
+        let classic = names_with_shader().into_iter().map(|name| shader_of(&name).unwrap());
         let skipping = [shader(&model("recommended")).with_skip(Skip::Visible)];
         for method in networks.into_iter().chain(classic).chain(skipping) {
             for limits in [
@@ -1347,16 +1057,15 @@ pub(crate) mod tests {
                     sources.for_each(|source| validate(source).unwrap());
                 }
             }
-            let broken = MethodShader {
-                source: method.source.replace("oit_weight", "oit_wait"),
-                ..method
-            };
-            assert!(validate(&Shaders::new(&broken, TargetPrecision::Full, Limits::WEBGPU).pass2).is_err());
+            let whole = Shaders::new(&method, TargetPrecision::Full, Limits::WEBGPU).pass2;
+            let broken = whole.replace(&format!("fn {}(", method.weight), "fn oit_wait(");
+            assert!(broken != whole && validate(&broken).is_err(), "{}", method.name);
         }
     }
 
-    /// Classic methods by their twins. Those that add up no moments are the CPU's to 1e-4 everywhere; of moments in f32, which the CPU has in f64, 99 % of
-    /// the pixels are within 0.03: trigonometric ones feel the rounding. Control: the scene with depths turned round, for those that look at depth.
+    /// Classic methods by their twins. Those that add up no moments are the CPU's to 1e-4 everywhere; of moments in
+    /// f32, which the CPU has in f64, 99 % of the pixels are within 0.03: trigonometric ones feel the rounding.
+    /// Control: the scene with depths turned round, for those that look at depth.
     #[test]
     fn classic_methods_are_drawn_too() {
         let Some(gpu) = gpu() else { return };
@@ -1379,7 +1088,7 @@ pub(crate) mod tests {
                 GREY.map(f64::from),
             )
             .unwrap();
-            let method = MethodShader::classic(name).unwrap();
+            let method = shader_of(name).unwrap();
             let off = |list: &FragmentList| {
                 let d = differences(
                     &image(list, &render(gpu, &method, list, None, None, GREY).unwrap().pixels),
@@ -1408,7 +1117,7 @@ pub(crate) mod tests {
         let formats = |network: &str| {
             Target::of(&shader(&model(network)), TargetPrecision::Full)
                 .iter()
-                .map(|t| t.format)
+                .map(|&t| format_of(t))
                 .collect::<Vec<_>>()
         };
         assert_eq!(formats("recommended"), [Rgba32Float, Rg32Float, Rg32Float]);
@@ -1426,7 +1135,8 @@ pub(crate) mod tests {
         assert_eq!(
             Target::of(&bare, TargetPrecision::Full),
             [Target {
-                format: R32Float,
+                channels: 1,
+                channel: Channel::F32,
                 holds: Holds::Added { first: 0, count: 1 }
             }]
         );
@@ -1435,24 +1145,29 @@ pub(crate) mod tests {
     /// Lists that make no image, and a device that does not blend.
     #[test]
     fn errors_say_what_is_missing() {
+        let Some(gpu) = gpu() else { return };
         let bare = FragmentList::new(vec![0, 1], vec![1.0], vec![0.5], None).unwrap();
         let none = FragmentList::new(vec![0], vec![], vec![], None)
             .unwrap()
             .with_size(0, 3)
             .unwrap();
-        let message = |list: &FragmentList| size_of(list).unwrap_err().to_string();
+        let message = |list: &FragmentList| {
+            DeviceList::new(gpu, list)
+                .unwrap()
+                .image_size()
+                .unwrap_err()
+                .to_string()
+        };
         assert!(message(&bare).contains("width"), "{}", message(&bare));
         assert!(message(&bare.clone().with_size(1, 1).unwrap()).contains("color"));
         assert!(message(&none).contains("0 x 3"));
-        if gpu().is_some() {
-            let poor = Gpu::open_without(wgpu::Features::FLOAT32_BLENDABLE).unwrap();
-            let error = render(&poor, &shader(&model("small")), &odd(), None, None, GREY)
-                .unwrap_err()
-                .to_string();
-            assert!(
-                error.contains("float32-blendable") && error.contains("gpu::tiles"),
-                "{error}"
-            );
-        }
+        let poor = Gpu::open_without(wgpu::Features::FLOAT32_BLENDABLE).unwrap();
+        let error = render(&poor, &shader(&model("small")), &odd(), None, None, GREY)
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("float32-blendable") && error.contains("gpu::tiles"),
+            "{error}"
+        );
     }
 }

@@ -1,22 +1,19 @@
 //! Both passes in compute shaders over per-pixel lists, and the network only for the fragments that need it.
 //!
-//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to four fragments, or of fragments at one depth, follow from exact rules; they are shaded as soon as
-//! they are told apart, by a shader that holds no network. The others go to a list, 64 to a workgroup whatever lies between them, and an indirect dispatch shades them.
-//! With [`Skip::Visible`] faint pixels are known too, and pixels in which fragments may be hidden have a list and a shader of their own: it finds the depth from
-//! which on all is hidden, once a pixel, and runs the network for what is in front. Nothing needs blending, so that this is also the way where a device cannot blend into f32 targets.
+//! Pass 1 leaves number and range of a pixel's fragments. Pixels of up to four fragments, or of fragments at one depth,
+//! follow from exact rules; they are shaded as soon as they are told apart, by a shader that holds no network. The
+//! others go to a list, 64 to a workgroup whatever lies between them, and an indirect dispatch shades them. With
+//! [`Skip::Visible`] faint pixels are known too, and pixels in which fragments may be hidden have a list and a shader
+//! of their own: it finds the depth from which on all is hidden, once a pixel, and runs the network for what is in
+//! front. Nothing needs blending, so that this is also the way where a device cannot blend into f32 targets.
 
-use super::device::{Gpu, GpuError};
-use super::method::{Composite, MethodShader};
-use super::pipeline::{FRAME, FrameSeconds, Rendered, composite, size_of};
-use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
+use super::device::{Gpu, GpuError, groups};
+use super::pipeline::{FrameSeconds, Rendered};
+use super::upload::{self, DeviceList, frame};
 use crate::oit::neural::Skip;
 use crate::pixel::{CameraPlanes, FragmentList};
-
-/// Pixels of a workgroup in each direction.
-const TILE: u32 = 8;
-
-/// Workgroups in a row of an indirect dispatch.
-const ROW: &str = "32768u";
+use crate::shader::MethodShader;
+use crate::shader::compute::{ACCUMULATE, CLASSIFY, EVERY, LISTED, TILE, TILE_CORE, TileShaders};
 
 /// How many pixels there are of each kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,11 +52,20 @@ struct Kernel {
 }
 
 impl Kernel {
-    fn new(gpu: &Gpu, label: &str, source: &str, entry: &str, buffers: &[&wgpu::Buffer]) -> Result<Self, GpuError> {
+    /// `core` is bound behind all others.
+    fn new(
+        gpu: &Gpu,
+        label: &str,
+        source: &str,
+        entry: &str,
+        buffers: &[&wgpu::Buffer],
+        core: Option<(u32, &wgpu::Buffer)>,
+    ) -> Result<Self, GpuError> {
         let pipeline = gpu.compute(label, source, entry)?;
         let group = gpu.checked(label, || {
             let entries: Vec<_> = (0..)
-                .zip(buffers)
+                .zip(buffers.iter().copied())
+                .chain(core)
                 .map(|(binding, b)| wgpu::BindGroupEntry {
                     binding,
                     resource: b.as_entire_binding(),
@@ -100,60 +106,34 @@ impl TilePasses {
     /// [`GpuError::NoImage`] where the list makes none, [`GpuError::TooLarge`], [`GpuError::Refused`].
     pub fn new(
         gpu: &Gpu,
-        list: &FragmentList,
+        list: &DeviceList,
         method: &MethodShader,
         range: [f32; 2],
         background: [f32; 3],
     ) -> Result<Self, GpuError> {
-        let (width, height) = size_of(list)?;
-        let (pixels, k) = (list.pixels() as u64, method.sums);
+        let (width, height) = list.image_size()?;
         let most = gpu.device.limits().max_compute_workgroups_per_dimension;
         if width.max(height).div_ceil(TILE) > most {
             return Err(GpuError::NoImage(format!(
                 "{width} x {height} takes more than {most} tiles in a direction; make it smaller"
             )));
         }
-        let offsets: Vec<u32> = list.offsets().iter().map(|&o| o as u32).collect();
-        let offsets = gpu.upload("offsets", &offsets)?;
-        let view_z = gpu.upload("view_z", list.view_z())?;
-        let alpha = gpu.upload("alpha", list.alpha())?;
-        let color = gpu.upload("color", list.color().unwrap_or(&[]).as_flattened())?;
-        let sums = gpu.zeros("sums of pixels", 4 * k as u64 * pixels)?;
-        let ranges = gpu.zeros("ranges of pixels", 16 * pixels)?;
+        let chunk = list.whole(gpu)?;
+        let (pixels, shaders) = (list.pixels as u64, TileShaders::new(method));
+        let frame = frame(gpu, method, range, (width, height), background, 1.0);
+        let state = gpu.zeros("what pass 1 leaves", 16 * shaders.vectors as u64 * pixels)?;
         let image = gpu.zeros("image", 16 * pixels)?;
         let lists = gpu.zeros("lists of pixels", 4 * (8 + pixels))?;
-        let words = [range[0].to_bits(), range[1].to_bits(), width, height];
-        let words = [
-            words,
-            [
-                background[0].to_bits(),
-                background[1].to_bits(),
-                background[2].to_bits(),
-                0,
-            ],
-        ];
-        let frame = gpu.uniform("frame", [words, [[0; 4]; 2]].as_flattened().as_flattened());
-
-        let each = |f: &dyn Fn(usize) -> String, between: &str| (0..k).map(f).collect::<Vec<_>>().join(between);
-        let module = method.module();
-        let accumulate = include_str!("tiles/accumulate.wgsl")
-            .replace("OIT_ADD", &each(&|i| format!("sums[{i}] += term[{i}];"), " "))
-            .replace(
-                "OIT_STORE",
-                &each(&|i| format!("oit_sums[pixel * {k}u + {i}u] = sums[{i}];"), " "),
-            );
-        let weigh = include_str!("tiles/weigh.wgsl")
-            .replace("OIT_LOAD", &each(&|i| format!("oit_sums[pixel * {k}u + {i}u]"), ", "));
-        let shared = format!("{module}{FRAME}{}{weigh}", composite(method.composite));
-        let every = format!("{shared}{}", include_str!("tiles/every.wgsl"));
-        let classify = |visible| format!("{shared}{}", classify(method, visible));
-        let listed = |hiding| format!("{shared}{}", listed(hiding));
+        let core = upload::core(gpu, method, list.pixels)?;
+        let core_at = |binding| core.as_ref().map(|buffer| (binding, buffer));
 
         let name = |pass: &str| format!("{}, {pass}", method.name);
-        let shaded = [
-            &frame, &offsets, &view_z, &alpha, &color, &sums, &ranges, &image, &lists,
-        ];
-        let kernel = |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded);
+        let (view_z, alpha, color) = (&chunk.view_z, &chunk.alpha, &chunk.color);
+        let shaded = [&frame, &list.offsets, view_z, alpha, color, &state, &image, &lists];
+        let kernel =
+            |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded, core_at(TILE_CORE));
+        let accumulated = [&frame, &list.offsets, view_z, alpha, &state];
+        let hiding = shaders.hiding.as_deref();
         Ok(Self {
             name: method.name.clone(),
             width,
@@ -161,19 +141,26 @@ impl TilePasses {
             accumulate: Kernel::new(
                 gpu,
                 &name("pass 1"),
-                &format!("{module}{FRAME}{accumulate}"),
-                "oit_accumulate_tiles",
-                &[&frame, &offsets, &view_z, &alpha, &sums, &ranges],
+                &shaders.accumulate,
+                ACCUMULATE,
+                &accumulated,
+                core_at(5),
             )?,
-            every: Kernel::new(gpu, &name("pass 2"), &every, "oit_every_pixel", &shaded[..8])?,
+            every: Kernel::new(
+                gpu,
+                &name("pass 2"),
+                &shaders.every,
+                EVERY,
+                &shaded[..7],
+                core_at(TILE_CORE),
+            )?,
             classify: [
-                kernel("pixels told apart", &classify(false), "oit_classify")?,
-                kernel("pixels told apart by what is seen", &classify(true), "oit_classify")?,
+                kernel("pixels told apart", &shaders.classify[0], CLASSIFY)?,
+                kernel("pixels told apart by what is seen", &shaders.classify[1], CLASSIFY)?,
             ],
-            network: kernel("pass 2, network", &listed(false), "oit_listed_pixels")?,
-            hiding: method
-                .tells_visible()
-                .then(|| kernel("pass 2, hidden or network", &listed(true), "oit_listed_pixels"))
+            network: kernel("pass 2, network", &shaders.network, LISTED)?,
+            hiding: hiding
+                .map(|source| kernel("pass 2, hidden or network", source, LISTED))
                 .transpose()?,
             lists,
             image,
@@ -186,18 +173,20 @@ impl TilePasses {
     /// [`GpuError::Refused`].
     pub fn run(&self, gpu: &Gpu, skip: Skip) -> Result<TileSeconds, GpuError> {
         let all = Groups::Direct(self.width.div_ceil(TILE), self.height.div_ceil(TILE));
+        let [x, y] = groups(u64::from(self.width) * u64::from(self.height));
+        let accumulate = (&self.accumulate, Groups::Direct(x, y));
         let network = (&self.network, Groups::Indirect(0));
         let passes = match (skip, &self.hiding) {
-            (Skip::None, _) => vec![vec![(&self.accumulate, all)], vec![(&self.every, all)]],
+            (Skip::None, _) => vec![vec![accumulate], vec![(&self.every, all)]],
             (Skip::Visible, Some(hiding)) => {
                 vec![
-                    vec![(&self.accumulate, all)],
+                    vec![accumulate],
                     vec![(&self.classify[1], all)],
                     vec![network, (hiding, Groups::Indirect(12))],
                 ]
             }
             _ => vec![
-                vec![(&self.accumulate, all)],
+                vec![accumulate],
                 vec![(&self.classify[usize::from(skip == Skip::Visible)], all)],
                 vec![network],
             ],
@@ -288,61 +277,6 @@ impl TilePasses {
     }
 }
 
-/// The shader that tells pixels apart: whether one is `known` or `faint`, what `kind` it is else, and the weight of fragments of the known.
-fn classify(method: &MethodShader, visible: bool) -> String {
-    // What has no short form needs the long one wherever there is a fragment.
-    let known = if method.has_short_weight() {
-        "state.n <= 4.0 || state.nearest >= state.farthest"
-    } else {
-        "state.n == 0.0"
-    };
-    let short = if method.has_short_weight() {
-        "oit_short_weight(f, state)"
-    } else {
-        "0.0"
-    };
-    let (kinds, weight) = match (visible, method.tells_visible()) {
-        (_, false) if !visible || method.composite != Composite::Normalised => {
-            ("let faint = false;\n    let kind = 0u;".to_owned(), short.to_owned())
-        }
-        (false, _) => ("let faint = false;\n    let kind = 0u;".to_owned(), short.to_owned()),
-        (true, true) => (
-            format!(
-                "let faint = state.n > 4.0 && state.sums[0] <= {FAINT:?};\n    let kind = select(0u, 1u, state.n > 4.0 && state.z_farthest > \
-                 oit_first_hidden_depth(state));"
-            ),
-            format!("select({short}, oit_faint_weight(f, state), faint && !known)"),
-        ),
-        // Both mean colours lie in [0, 1], whatever the weights.
-        (true, false) => (
-            format!("let faint = state.sums[0] <= {MIN_OPACITY:?};\n    let kind = 0u;"),
-            "1.0".to_owned(),
-        ),
-    };
-    include_str!("tiles/classify.wgsl")
-        .replace("OIT_KINDS", &format!("let known = {known};\n    {kinds}"))
-        .replace("OIT_KNOWN", &weight)
-        .replace("OIT_ROW", ROW)
-}
-
-/// Greatest b_0 of a pixel that shows less than half a display step: 1 − e^−b_0 < 1/512.
-const MIN_OPACITY: f32 = 1.0 / 512.0;
-
-/// The shader of pixels that need the network, of one kind.
-fn listed(hiding: bool) -> String {
-    let way = if hiding {
-        include_str!("tiles/hiding.wgsl")
-    } else {
-        include_str!("tiles/network.wgsl")
-    };
-    include_str!("tiles/listed.wgsl")
-        .replace("OIT_LOOP", way.trim_end())
-        .replace("OIT_HIDDEN", &format!("{HIDDEN:?}"))
-        .replace("OIT_LEAST_WEIGHT", &format!("{MIN_WEIGHT:?}"))
-        .replace("OIT_ROW", ROW)
-        .replace("OIT_KIND", if hiding { "1u" } else { "0u" })
-}
-
 /// Workgroups of a dispatch, or where in a buffer their numbers stand.
 #[derive(Debug, Clone, Copy)]
 enum Groups {
@@ -350,7 +284,8 @@ enum Groups {
     Indirect(u64),
 }
 
-/// As [`super::pipeline::render`], in compute passes that blend nothing, with the network for fragments whose answer is used.
+/// As [`super::pipeline::render`], in compute passes that blend nothing, with the network for fragments whose answer is
+/// used.
 ///
 /// # Errors
 /// [`GpuError`].
@@ -362,14 +297,9 @@ pub fn render(
     depth_range: Option<(f32, f32)>,
     background: [f32; 3],
 ) -> Result<Rendered, GpuError> {
-    TilePasses::new(
-        gpu,
-        list,
-        method,
-        method.depth_range(list, planes, depth_range)?,
-        background,
-    )?
-    .render(gpu, Skip::Exact)
+    let range = method.depth_range(list, planes, depth_range)?;
+    let list = DeviceList::new(gpu, list)?;
+    TilePasses::new(gpu, &list, method, range, background)?.render(gpu, Skip::Exact)
 }
 
 #[cfg(test)]
@@ -383,10 +313,12 @@ mod tests {
     use crate::gpu::tests::gpu;
     use crate::model::Mlp;
     use crate::oit::neural::Neural;
+    use crate::oit::shader::Offers;
     use crate::oit::{Context, Method, weights};
 
     fn passes(gpu: &Gpu, list: &FragmentList, method: &MethodShader) -> TilePasses {
-        TilePasses::new(gpu, list, method, method.depth_range(list, None, None).unwrap(), GREY).unwrap()
+        let range = method.depth_range(list, None, None).unwrap();
+        TilePasses::new(gpu, &DeviceList::new(gpu, list).unwrap(), method, range, GREY).unwrap()
     }
 
     fn shaded(gpu: &Gpu, passes: &TilePasses, skip: Skip) -> Vec<[u32; 3]> {
@@ -404,7 +336,8 @@ mod tests {
         }
     }
 
-    /// With the pixels told apart and without: the same bits, and the lists hold what a count here says. The sizes are no multiples of 8.
+    /// With the pixels told apart and without: the same bits, and the lists hold what a count here says. The sizes are
+    /// no multiples of 8.
     #[test]
     fn telling_pixels_apart_changes_no_bit() {
         let Some(gpu) = gpu() else { return };
@@ -431,7 +364,8 @@ mod tests {
         }
     }
 
-    /// The control: a short form that answers otherwise shows in the image of a scene with known pixels, and nowhere else.
+    /// The control: a short form that answers otherwise shows in the image of a scene with known pixels, and nowhere
+    /// else.
     #[test]
     fn known_pixels_are_shaded_by_the_short_form() {
         let Some(gpu) = gpu() else { return };
@@ -447,8 +381,9 @@ mod tests {
         assert!(different > 0 && different < plain.len(), "{different}");
     }
 
-    /// What cannot be seen is left out: on the built-in scenes no channel is more than 1/512 from the image that skips nothing, FLIP at most 0.0005, and the CPU's `visible` image is met as
-    /// the CPU's is elsewhere; fewer fragments are evaluated for where some are hidden. Control: a shader that takes nearly all fragments for hidden.
+    /// What cannot be seen is left out: on the built-in scenes no channel is more than 1/512 from the image that skips
+    /// nothing, FLIP at most 0.0005, and the CPU's `visible` image is met as the CPU's is elsewhere; fewer fragments
+    /// are evaluated for where some are hidden. Control: a shader that takes nearly all fragments for hidden.
     #[test]
     fn what_is_left_out_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
@@ -507,8 +442,9 @@ mod tests {
         assert!(controls > 3, "{controls}");
     }
 
-    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and the network is evaluated in none of them. Controls: it is in pixels three times
-    /// as opaque, and networks that answer 0 or 1 do change what is seen a little.
+    /// Faint pixels, whatever the network says: no channel changes by more than 1/512, and the network is evaluated in
+    /// none of them. Controls: it is in pixels three times as opaque, and networks that answer 0 or 1 do change what is
+    /// seen a little.
     #[test]
     fn faint_pixels_need_no_network() {
         let Some(gpu) = gpu() else { return };
@@ -543,8 +479,8 @@ mod tests {
         Mlp::new("biased", mlp.feature_set(), layers, crate::model::Provenance::default()).unwrap()
     }
 
-    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and the image is that of none. Control: with answers that weigh enough, it is
-    /// not.
+    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and
+    /// the image is that of none. Control: with answers that weigh enough, it is not.
     #[test]
     fn doubtful_pixels_are_asked_about() {
         let Some(gpu) = gpu() else { return };
@@ -574,7 +510,7 @@ mod tests {
         let Some(gpu) = gpu() else { return };
         let (list, method) = (built_in("teapots", 64), shader(&model("small")));
         let bare = MethodShader {
-            source: method.source.replace("oit_short_weight", "oit_unknown"),
+            offers: Offers::default(),
             ..method
         };
         let passes = passes(gpu, &list, &bare);
@@ -584,7 +520,8 @@ mod tests {
         assert!(counts.known > 0);
     }
 
-    /// The image is the render passes' (they add in the same order, so within 1e-5) and the CPU evaluator's; on a device that cannot blend too.
+    /// The image is the render passes' (they add in the same order, so within 1e-5) and the CPU evaluator's; on a
+    /// device that cannot blend too.
     #[test]
     fn compute_passes_need_no_blending() {
         let Some(gpu) = gpu() else { return };

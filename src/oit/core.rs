@@ -2,7 +2,7 @@
 
 use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError};
+use super::{Accumulated, Context, Method, MethodError, MethodShader};
 use crate::features::core::CoreSet;
 use crate::features::core::code::MAX_HEAVY;
 use crate::infer::core::{Tail, run};
@@ -74,6 +74,10 @@ impl Method for Core {
 
     fn capabilities(&self) -> Capabilities {
         capabilities(self.set.bits())
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        Some(MethodShader::of_core(self.name(), self.set))
     }
 
     fn accumulate<'a>(

@@ -3,6 +3,7 @@
 use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::Layered;
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::MethodShader;
 use super::{Accumulated, Context, Method, MethodError};
 use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{FragmentList, absorbance, abuffer};
@@ -62,6 +63,14 @@ impl Method for Hybrid {
             },
             order_dependent: false,
         }
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        if self.core > 8 {
+            return None;
+        }
+        let source = format!("\nconst HYBRID_CORE = {}u;\n{}", self.core, include_str!("hybrid.wgsl"));
+        Some(MethodShader::inserted(self.name(), 3 * self.core + 3, source))
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

@@ -3,7 +3,7 @@
 
 const HYBRID_TAIL = 3u * HYBRID_CORE;
 
-fn oit_insert(sums: ptr<function, array<f32, OIT_SUMS>>, f: OitFragment, nearest: f32, farthest: f32) {
+fn oit_add_to(sums: ptr<function, array<f32, OIT_SUMS>>, f: OitFragment, nearest: f32, farthest: f32) {
     var carried = vec3<f32>(f.v, f.absorbance, f.alpha);
     let count = u32((*sums)[HYBRID_TAIL + 2u]);
     var shifts = false;

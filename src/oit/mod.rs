@@ -18,6 +18,7 @@ pub mod moment_trig;
 pub mod multi_layer_alpha;
 pub mod neural;
 pub mod registry;
+pub mod shader;
 pub mod stochastic;
 #[cfg(test)]
 mod testing;
@@ -28,7 +29,8 @@ pub mod weighted_blended;
 pub mod weighted_sum;
 
 pub use capabilities::{Capabilities, Needs};
-pub use registry::{ParseError, all_names, parse, source};
+pub use registry::{ParseError, all_names, names_with_shader, parse, shader_of, source};
+pub use shader::MethodShader;
 
 use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};
@@ -82,6 +84,17 @@ pub trait Method: Send + Sync {
     /// Whether its weights are transmittances, so that an error of T can be stated.
     fn weights_are_transmittance(&self) -> bool {
         true
+    }
+
+    /// Its twin on a GPU, where it has one.
+    ///
+    /// Moments are f32 there, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the CPU's, which are f64 after pass 1,
+    /// all arithmetic is f32.
+    ///
+    /// # Accuracy
+    /// Against the CPU's method on the same f32 moments: `gpu::twins::twins_answer_as_on_the_cpu`.
+    fn shader(&self) -> Option<MethodShader> {
+        None
     }
 
     /// Pass 1: goes over all fragments of a list, in the order in which they stand there.

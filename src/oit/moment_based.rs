@@ -2,7 +2,10 @@
 //! the exact rules of `+own`.
 
 use super::capabilities::Capabilities;
+use super::shader::{Composite, MethodShader, Offers, Pass1, WEIGHT};
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
+use crate::features::MomentDepthKind;
+use crate::moments::hamburger::OVERESTIMATION;
 use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
 use std::sync::OnceLock;
 
@@ -39,14 +42,63 @@ pub(super) trait MomentBased: Send + Sync {
     fn without(&self, moments: &Self::Moments, own: Sample) -> Self::Moments;
     fn curve(&self, moments: &Self::Moments) -> Self::Curve;
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64;
+    /// Its shader, where moments are what the GPU keeps.
+    fn shader(&self) -> Option<MomentShader> {
+        None
+    }
     /// From the curve of the other fragments.
     fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
         self.transmittance(curve, z)
     }
 }
 
-/// Overestimation where the fragment's own absorbance is gone: the middle of the bounds, for nothing is known to lie at
-/// the depth itself.
+/// What tells the shaders of moment-based methods apart.
+pub(super) struct MomentShader {
+    /// Numbers that are kept of a pixel.
+    pub sums: usize,
+    /// WGSL of the curve.
+    pub curve_source: &'static str,
+    /// The function that evaluates it.
+    pub curve: String,
+    /// WGSL of pass 1.
+    pub accumulate: String,
+}
+
+impl MomentShader {
+    /// The whole method; `own` takes the fragment's own absorbance out. (There the CPU's tries all moments before it gives up, which 16-bit storage
+    /// needs; in f32 it would double the work of devices that run both sides of a branch, for what `gpu::twins::hard_pixels` meets in one answer of
+    /// thousands.)
+    fn method(self, name: String, own: bool) -> MethodShader {
+        let weight = if own {
+            let others: Vec<String> = (0..self.sums).map(|i| format!("p.sums[{i}] - own[{i}]")).collect();
+            include_str!("moment_weight_own.wgsl")
+                .replace("OIT_OTHERS", &others.join(", "))
+                .replace("OIT_OVERESTIMATION", &format!("{OTHERS_OVERESTIMATION:?}"))
+        } else {
+            include_str!("moment_weight.wgsl").replace("OIT_OVERESTIMATION", &format!("{OVERESTIMATION:?}"))
+        };
+        let roots = include_str!("../numeric/roots.wgsl");
+        MethodShader {
+            name,
+            sums: self.sums,
+            range: own,
+            depth: MomentDepthKind::Log,
+            composite: Composite::Normalised,
+            pass1: Pass1::Added,
+            core: None,
+            offers: Offers::default(),
+            weight: WEIGHT,
+            source: format!(
+                "{roots}\n{}{}{}",
+                self.curve_source,
+                self.accumulate,
+                weight.replace("OIT_CURVE", &self.curve)
+            ),
+        }
+    }
+}
+
+/// Overestimation where the fragment's own absorbance is gone: the middle of the bounds, for nothing is known to lie at the depth itself.
 ///
 /// On the paper's distribution (moments of 2w − 1) four moments then have a T-MSE of 4.4e-3, against 9.1e-3 with 0.25.
 pub(super) const OTHERS_OVERESTIMATION: f64 = 0.5;
@@ -111,6 +163,10 @@ impl<F: MomentBased> Method for PerPixel<F> {
 
     fn capabilities(&self) -> Capabilities {
         self.family.capabilities(self.own)
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        Some(self.family.shader()?.method(self.name(), self.own))
     }
 
     fn accumulate<'a>(

@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::capabilities::{Capabilities, Needs, RANGE_BITS, sums};
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
@@ -132,6 +132,22 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
 
     fn rounds_sums(&self) -> bool {
         matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
+    }
+
+    fn shader(&self) -> Option<MomentShader> {
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32)
+            && self.strength.is_none()
+            && self.overestimation.is_none();
+        let powers: Vec<String> = (1..M).map(|i| format!("let b{i} = b{} * f.z;", i - 1)).collect();
+        let moments: Vec<String> = (0..M).map(|i| format!("b{i}")).collect();
+        f32s.then(|| MomentShader {
+            sums: M,
+            curve_source: include_str!("../moments/hamburger.wgsl"),
+            curve: format!("power_transmittance_{}", 2 * N),
+            accumulate: include_str!("power_moments.wgsl")
+                .replace("OIT_POWERS", &powers.join("\n    "))
+                .replace("OIT_MOMENTS", &moments.join(", ")),
+        })
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; M] {

@@ -2,7 +2,7 @@
 
 use super::Method;
 use super::capabilities::{Capabilities, Needs, RANGE_BITS};
-use super::moment_based::{MomentBased, OTHERS_OVERESTIMATION, PerPixel, Sample};
+use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
 use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::MomentStorage;
@@ -101,6 +101,23 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
 
     fn rounds_sums(&self) -> bool {
         matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
+    }
+
+    fn shader(&self) -> Option<MomentShader> {
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32)
+            && self.bias.is_none()
+            && self.overestimation.is_none();
+        let power = |i| format!("let b{i} = complex_times(b{}, x);", i - 1);
+        let powers: Vec<String> = (2..=M).map(power).collect();
+        let moments: Vec<String> = (1..=M).map(|i| format!("b{i}.x, b{i}.y")).collect();
+        f32s.then(|| MomentShader {
+            sums: 2 * M + 1,
+            curve_source: include_str!("../moments/trigonometric.wgsl"),
+            curve: format!("trigonometric_transmittance_{M}"),
+            accumulate: include_str!("trigonometric_moments.wgsl")
+                .replace("OIT_POWERS", &powers.join("\n    "))
+                .replace("OIT_MOMENTS", &moments.join(", ")),
+        })
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments {

@@ -1,9 +1,10 @@
 //! Methods by their names on the command line.
 
+use super::shader::Pass1;
 use super::{
-    Method, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling, fourier_opacity, hybrid,
-    low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural, stochastic,
-    two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
+    Method, MethodShader, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling,
+    fourier_opacity, hybrid, low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha,
+    neural, stochastic, two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
 use crate::numeric::similar::suggestion;
@@ -233,6 +234,19 @@ pub fn source(name: &str) -> Option<&'static str> {
 /// The names that stand for all methods, every one of which [`parse`] takes.
 pub fn all_names() -> Vec<String> {
     entries().flat_map(|e| (e.names)(e.head)).collect()
+}
+
+/// The GPU twin of a method by its name; none where the name is no method's, or the method has no twin.
+pub fn shader_of(name: &str) -> Option<MethodShader> {
+    parse(name).ok()?.shader()
+}
+
+/// Names of the methods that have a GPU twin. Where names differ in the CPU's storage alone, the shortest stands for all.
+pub fn names_with_shader() -> Vec<String> {
+    let names = all_names().into_iter().filter(|name| !name.contains(":f32"));
+    names
+        .filter(|name| shader_of(name).is_some_and(|shader| shader.pass1 == Pass1::Added))
+        .collect()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::capabilities::{COLOUR_BITS, Capabilities, Needs, RANGE_BITS, sums};
 use super::moment_based::{ends, exact};
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::MethodShader;
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::numeric::exact_sum::ExactSum;
 use crate::numeric::quantise::round_f16;
@@ -218,6 +219,19 @@ impl Method for Wavelet {
             },
             order_dependent: false,
         }
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        if self.storage == Coefficients::F16 || self.rank > 4 {
+            return None;
+        }
+        let source = format!(
+            "\nconst WAVELET_RANK = {}u;\nconst WAVELET_LOG = {};\n{}",
+            self.rank,
+            self.own,
+            include_str!("wavelet.wgsl")
+        );
+        Some(MethodShader::inserted(self.name(), self.count(), source))
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

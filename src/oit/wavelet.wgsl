@@ -42,7 +42,7 @@ fn wavelet_in_front(c: ptr<function, array<f32, OIT_SUMS>>, x: f32) -> f32 {
     return before + (behind - before) * (at - f32(j));
 }
 
-fn oit_insert(sums: ptr<function, array<f32, OIT_SUMS>>, f: OitFragment, nearest: f32, farthest: f32) {
+fn oit_add_to(sums: ptr<function, array<f32, OIT_SUMS>>, f: OitFragment, nearest: f32, farthest: f32) {
     wavelet_add(sums, wavelet_place(f.v, nearest, farthest), f.absorbance);
 }
 

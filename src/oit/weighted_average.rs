@@ -2,6 +2,7 @@
 
 use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError, weighted_sums};
 use crate::pixel::{FragmentList, Pixel};
 
@@ -46,6 +47,10 @@ impl Method for WeightedAverage {
     /// They are 1.
     fn weights_are_transmittance(&self) -> bool {
         false
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        Some(MethodShader::alike(NAME, Composite::Average))
     }
 
     fn accumulate<'a>(&'a self, _: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

@@ -3,7 +3,9 @@
 
 use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError, composite_normalised};
+use crate::features::MomentDepthKind;
 use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{CameraPlanes, DepthError, FragmentList, ViewZ, abuffer};
 
@@ -179,6 +181,25 @@ impl Method for WeightedBlended {
     /// They only fall with depth as transmittance does.
     fn weights_are_transmittance(&self) -> bool {
         false
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        if self.scale == DepthScale::Best {
+            return None;
+        }
+        let depth = match self.weight {
+            Weight::Mb13Eq10 => MomentDepthKind::Window,
+            _ => MomentDepthKind::None,
+        };
+        let function = format!("weight_{}", self.weight.name().replace('-', "_"));
+        let weight = include_str!("weighted_blended_weight.wgsl").replace("OIT_FUNCTION", &function);
+        let source = format!("{}{weight}", include_str!("weighted_blended.wgsl"));
+        Some(MethodShader::of_total(
+            self.name(),
+            depth,
+            Composite::Normalised,
+            &source,
+        ))
     }
 
     fn accumulate<'a>(

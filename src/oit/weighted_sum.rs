@@ -3,6 +3,7 @@
 use super::capabilities::Capabilities;
 use super::layered::composite_over;
 use super::registry::{Arguments, Entry, ParseError};
+use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError};
 use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{FragmentList, Pixel};
@@ -46,6 +47,10 @@ impl Method for WeightedSum {
     /// They are 1.
     fn weights_are_transmittance(&self) -> bool {
         false
+    }
+
+    fn shader(&self) -> Option<MethodShader> {
+        Some(MethodShader::alike(NAME, Composite::Sum))
     }
 
     fn accumulate<'a>(&'a self, _: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

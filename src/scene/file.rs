@@ -210,6 +210,21 @@ impl SceneFile {
         }
     }
 
+    /// What there is to see: surfaces and particles, for a renderer of one's own.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a mesh that cannot be read.
+    pub fn geometry(&self) -> Result<Geometry, SceneError> {
+        match &self.built_in {
+            Some(name) => Ok(procedural::geometry(
+                name,
+                self.seed.unwrap_or(1),
+                self.camera()?.position,
+            )),
+            None => self.mesh_geometry(),
+        }
+    }
+
     /// The fragments that the camera sees.
     ///
     /// # Errors

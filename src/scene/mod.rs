@@ -13,6 +13,7 @@ pub mod shadow;
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile};
 pub use path::CameraPath;
+pub use raster::{Geometry, Particle, Triangle, Vertex};
 
 use crate::numeric::file::FileError;
 use crate::numeric::npy::NpyError;

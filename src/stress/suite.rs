@@ -9,7 +9,7 @@ use crate::export::Format;
 use crate::features::{FeatureSet, MomentFrame};
 use crate::gpu::{self, Gpu, GpuError, MethodShader};
 use crate::model::{Mlp, ShapeError};
-use crate::oit::{Method, MethodError, ParseError, all_names, parse};
+use crate::oit::{Method, MethodError, ParseError, all_names, parse, shader_of};
 use std::collections::HashSet;
 use std::time::Instant;
 
@@ -152,7 +152,7 @@ pub fn on_gpu(mlps: &[Mlp], methods: &[String]) -> Result<Vec<Subject<'static>>,
         .filter(|mlp| mlp.feature_set() != FeatureSet::DeepWeightedBlended)
     {
         let promise = Subject::network(mlp, Execution::default())?.promise;
-        let shader = MethodShader::neural(mlp, Format::Wgsl)?;
+        let shader = MethodShader::neural(mlp, Format::WGSL).map_err(GpuError::from)?;
         let name = format!("{} @ {}", shader.name, gpu.name());
         subjects.push(Subject::new(name, promise, run(shader)).with_network_as_double(mlp));
     }
@@ -164,7 +164,7 @@ pub fn on_gpu(mlps: &[Mlp], methods: &[String]) -> Result<Vec<Subject<'static>>,
         }
     }
     for name in names {
-        let Some(shader) = MethodShader::classic(&name) else {
+        let Some(shader) = shader_of(&name) else {
             continue;
         };
         let promise = if name.ends_with("+own") {

@@ -1,4 +1,5 @@
-//! The code in docs/integration.md: every block compiles behind the export that the page names. Its Rust is run as documentation tests.
+//! The code in docs/integration.md: every block compiles behind the export that the page names. Its Rust is run as
+//! documentation tests.
 
 use nmt::export::{Format, encode};
 use nmt::model::file;
@@ -35,25 +36,27 @@ fn wgsl(source: &str) -> Result<(), String> {
         .map_err(|e| e.emit_to_string(source))
 }
 
-/// Control: with a function of the export misspelt, no block that calls it compiles.
-#[test]
-fn wgsl_compiles() {
-    let (export, blocks) = (export(Format::Wgsl), blocks(&page(), "wgsl"));
-    assert_eq!(blocks.len(), 3, "pass 1, pass 2, resolve");
-    for block in &blocks {
-        wgsl(&format!("{export}\n{block}")).unwrap();
-        assert!(
-            wgsl(&format!("{export}\n{}", block.replace("nmt_moment_depth", "nmt_depth"))).is_err()
-                || !block.contains("nmt_moment_depth")
-        );
-    }
-    assert!(blocks[..2].iter().all(|b| b.contains("nmt_moment_depth")));
+/// The source with every call of the export's functions misspelt.
+fn misspelt(block: &str) -> String {
+    block.replace("nmt_", "mnt_")
 }
 
-fn glslang(source: &str) -> std::io::Result<Result<(), String>> {
+/// Control: with functions of the export misspelt, no block that calls one compiles.
+#[test]
+fn wgsl_compiles() {
+    let (export, blocks) = (export(Format::WGSL), blocks(&page(), "wgsl"));
+    assert!(blocks.len() >= 6, "{} blocks", blocks.len());
+    for block in &blocks {
+        wgsl(&format!("{export}\n{block}")).unwrap_or_else(|e| panic!("{block}\n{e}"));
+        assert!(!block.contains("nmt_") || wgsl(&format!("{export}\n{}", misspelt(block))).is_err());
+    }
+    assert!(blocks.iter().filter(|b| b.contains("nmt_")).count() >= 3);
+}
+
+fn glslang(stage: &str, source: &str) -> std::io::Result<Result<(), String>> {
     let stdio = || Stdio::piped();
     let mut child = Command::new("glslangValidator")
-        .args(["--stdin", "-S", "frag"])
+        .args(["--stdin", "-S", stage])
         .stdin(stdio())
         .stdout(stdio())
         .stderr(stdio())
@@ -67,21 +70,32 @@ fn glslang(source: &str) -> std::io::Result<Result<(), String>> {
     })
 }
 
-/// Control: as for WGSL.
+/// In GLSL 4.50 and ES 3.00: functions in fragment shaders, and the vertex shader. Control: a vertex shader without its
+/// first line.
 #[test]
 fn glsl_compiles() {
-    let (export, blocks) = (export(Format::Glsl), blocks(&page(), "glsl"));
-    assert_eq!(blocks.len(), 3, "pass 1, pass 2, resolve");
-    let whole = |block: &str| format!("#version 450\n{export}\n{block}");
-    if or_skip("glslangValidator", glslang(&whole(&blocks[0]))).is_none() {
-        return;
-    }
-    for block in &blocks {
-        glslang(&whole(block)).unwrap().unwrap();
-    }
-    for block in &blocks[..2] {
+    let (export, page) = (export(Format::GLSL), page());
+    let (functions, vertex) = (blocks(&page, "glsl"), blocks(&page, "glsl-vertex"));
+    assert!(functions.len() >= 2 && vertex.len() == 1);
+    for version in ["450", "300 es"] {
+        let whole = |block: &str| format!("#version {version}\n{export}\n{block}\nvoid main() {{}}\n");
+        if or_skip("glslangValidator", glslang("frag", &whole(&functions[0]))).is_none() {
+            return;
+        }
+        for block in &functions {
+            glslang("frag", &whole(block)).unwrap().unwrap();
+            assert!(
+                glslang("frag", &whole(&block.replace("vec4(", "vec5(")))
+                    .unwrap()
+                    .is_err()
+                    || !block.contains("vec4(")
+            );
+        }
+        glslang("vert", &format!("#version {version}\n{}", vertex[0]))
+            .unwrap()
+            .unwrap();
         assert!(
-            glslang(&whole(&block.replace("nmt_moment_depth", "nmt_depth")))
+            glslang("vert", &vertex[0].replace("in_view", "out_of_view.x"))
                 .unwrap()
                 .is_err()
         );
@@ -102,7 +116,7 @@ fn links_lead_somewhere() {
             .filter(|t| t.starts_with("../") && !docs.join(t).exists())
             .collect()
     };
-    assert!(page.matches("](../src/gpu").count() >= 3);
+    assert!(page.matches("](../shaders/").count() >= 7);
     assert_eq!(missing(&page), Vec::<String>::new());
     assert_eq!(missing("[a](../src/gone.rs)"), ["../src/gone.rs"]);
 }

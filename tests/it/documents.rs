@@ -267,6 +267,7 @@ documents! {
     readme: "README.md",
     docs_checks: "docs/checks.md",
     docs_cli: "docs/cli.md",
+    docs_core: "docs/core.md",
     docs_configuration: "docs/configuration.md",
     docs_glossary: "docs/glossary.md",
     docs_input: "docs/input.md",
@@ -381,7 +382,7 @@ fn the_snippet_of_the_readme_compiles() {
     let page = std::fs::read_to_string(root().join("README.md")).unwrap();
     let snippet = page.split("```wgsl\n").nth(1).unwrap().split("```").next().unwrap();
     let network = nmt::model::shipped::named("recommended").unwrap();
-    let export = String::from_utf8(nmt::export::encode(&network, nmt::export::Format::Wgsl).unwrap()).unwrap();
+    let export = String::from_utf8(nmt::export::encode(&network, nmt::export::Format::WGSL).unwrap()).unwrap();
     let around = |body: &str| {
         format!(
             "{export}\nfn snippet(v: f32, alpha: f32, v0: f32, v1: f32, nearest: f32, farthest: f32, n: f32, b0: f32, \

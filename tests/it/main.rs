@@ -1,9 +1,11 @@
 //! Integration tests, in one binary: the command line as a user types it, the order of the layers, the code in the
 //! documentation, and an independent reader.
 
+mod bench_gpu;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod core;
 mod docs;
 mod documents;
 mod layers;
@@ -11,4 +13,5 @@ mod methods;
 mod over_time;
 mod python;
 mod report;
+mod shader_folder;
 mod shaders;

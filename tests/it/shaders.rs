@@ -11,12 +11,12 @@ use std::path::Path;
 const NETWORKS: [&str; 4] = ["recommended", "small", "moments-6", "paper"];
 
 const FORMATS: [Format; 6] = [
-    Format::Wgsl,
-    Format::WgslPlain,
-    Format::Glsl,
-    Format::GlslPlain,
-    Format::Hlsl,
-    Format::HlslPlain,
+    Format::WGSL,
+    Format::WGSL_PLAIN,
+    Format::GLSL,
+    Format::GLSL_PLAIN,
+    Format::HLSL,
+    Format::HLSL_PLAIN,
 ];
 
 /// The source with the items of every constant array of weights replaced by their number of lines and their digest: a snapshot is there to be read.

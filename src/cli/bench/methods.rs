@@ -2,7 +2,7 @@
 
 use super::{Common, Turns, cells, merged};
 use crate::bench::Summary;
-use crate::bench::methods::{Candidate, Clock, Cost, FrontTime, NONE, Setting, Table};
+use crate::bench::methods::{Candidate, Clock, Cost, NONE, Processor, Setting, Table};
 use crate::chart::{Tradeoff, tradeoffs};
 use crate::cli::Verdict;
 use crate::cli::predict::SkipName;
@@ -11,11 +11,11 @@ use crate::cli::ui::{Ui, machine, report, table};
 use crate::evaluate::Truth;
 use crate::evaluate::picture::file_stem;
 use crate::export::Format;
-use crate::gpu::{Gpu, classic};
+use crate::gpu::Gpu;
 use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
-use crate::oit::{all_names, parse};
+use crate::oit::{all_names, names_with_shader, parse};
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -62,7 +62,12 @@ enum Device {
     Gpu,
 }
 
-const FORMATS: [Format; 4] = [Format::Wgsl, Format::WgslPlain, Format::WgslF16, Format::WgslPlainF16];
+const FORMATS: [Format; 4] = [
+    Format::WGSL,
+    Format::WGSL_PLAIN,
+    Format::WGSL_F16,
+    Format::WGSL_PLAIN_F16,
+];
 
 /// The file that holds all numbers.
 const RESULTS: &str = "results.json";
@@ -126,7 +131,7 @@ impl BenchMethods {
             .flat_map(|(_, t)| {
                 t.costs
                     .iter()
-                    .map(|c| (format!("{} on {}", label(c), c.adapter), times(t, c)))
+                    .map(|c| (format!("{} on {}", label(c), c.adapter), Summary::of(&c.both)))
             })
             .collect::<Vec<_>>();
         turns.finish(&figures);
@@ -137,7 +142,7 @@ impl BenchMethods {
         let mut results: Vec<Value> = Vec::new();
         for (_, table) in &tables {
             results.extend(table.costs.iter().map(|c| {
-                let mut row = row_json(&scene, table, c);
+                let mut row = row_json(&scene, c);
                 if let Some(row) = row.as_object_mut().filter(|_| c.network.is_some()) {
                     row.insert("skip".to_owned(), json!(Skip::from(self.skip)));
                 }
@@ -192,7 +197,7 @@ impl BenchMethods {
         for name in &self.methods {
             let names = match name.as_str() {
                 "all" => all_names(),
-                "shaders" => classic::NAMES.map(str::to_owned).to_vec(),
+                "shaders" => names_with_shader(),
                 _ => vec![name.clone()],
             };
             let by_name = !matches!(name.as_str(), "all" | "shaders");
@@ -245,22 +250,13 @@ fn picture(device: Device) -> String {
 fn label(cost: &Cost) -> String {
     let name = cost.method.strip_prefix("neural:").unwrap_or(&cost.method);
     match cost.format {
-        Some(format) if format != Format::Wgsl.name() => format!("{name} ({format})"),
+        Some(format) if format != Format::WGSL.name() => format!("{name} ({format})"),
         _ => name.to_owned(),
     }
 }
 
-/// The samples that the front is of.
-fn times(table: &Table, cost: &Cost) -> Summary {
-    match (&cost.passes, table.front_is_of) {
-        (Some(passes), FrontTime::Weights) => Summary::of(&passes.weights),
-        _ => Summary::of(&cost.both),
-    }
-}
-
-fn row_json(scene: &str, table: &Table, c: &Cost) -> Value {
+fn row_json(scene: &str, c: &Cost) -> Value {
     let per_fragment = |seconds: f64| 1e9 * seconds / c.fragments as f64;
-    let s = times(table, c);
     let both = Summary::of(&c.both);
     let row = json!({
         "benchmark": "methods", "scene": scene, "method": c.method, "network": c.network, "format": c.format, "adapter": c.adapter,
@@ -268,8 +264,7 @@ fn row_json(scene: &str, table: &Table, c: &Cost) -> Value {
         "transmittance_mse": c.transmittance_mse, "image_mse": c.image_mse, "flip_mean": c.flip_mean, "nonfinite": c.nonfinite,
         "image_nonfinite": c.image_nonfinite, "on_front": c.on_front,
         "seconds": both.median, "nanoseconds_per_fragment": per_fragment(both.median), "raw_seconds": c.both,
-        "front_time": match table.front_is_of { FrontTime::Weights => "seconds_weights", FrontTime::Both => "seconds" },
-        "min_seconds": s.min, "max_seconds": s.max, "mad_seconds": s.mad,
+        "min_seconds": both.min, "max_seconds": both.max, "mad_seconds": both.mad,
         "calls_per_repetition": c.calls, "repetitions": c.both.len(), "threads": rayon::current_num_threads(),
     });
     let row = merged(row, json!(c.capabilities));
@@ -297,11 +292,11 @@ fn table_text(t: &Table, repeat: usize) -> String {
     let mut rows = vec![cells([
         "",
         "method",
-        "pass 2 ns",
+        "both ns",
         "min",
         "max",
         "pass 1 ns",
-        "both ns",
+        "pass 2 ns",
         "image MSE",
         "FLIP",
         "T-MSE",
@@ -312,15 +307,15 @@ fn table_text(t: &Table, repeat: usize) -> String {
     for c in &t.costs {
         let median =
             |samples: Option<&Vec<f64>>| samples.map_or("-".to_owned(), |s| nanoseconds(Summary::of(s).median, c));
-        let s = times(t, c);
+        let s = Summary::of(&c.both);
         rows.push(vec![
             if c.on_front { "*" } else { "" }.to_owned(),
             label(c),
-            median(c.passes.as_ref().map(|p| &p.weights)),
+            nanoseconds(s.median, c),
             nanoseconds(s.min, c),
             nanoseconds(s.max, c),
             median(c.passes.as_ref().map(|p| &p.accumulate)),
-            median(Some(&c.both)),
+            median(c.passes.as_ref().map(|p| &p.weights)),
             number(c.image_mse, &|x| format!("{x:.2e}")),
             number(c.flip_mean, &|x| format!("{x:.4}")),
             number(c.transmittance_mse, &|x| format!("{x:.2e}")),
@@ -329,20 +324,16 @@ fn table_text(t: &Table, repeat: usize) -> String {
             c.capabilities.geometry_passes.to_string(),
         ]);
     }
-    let (time, of) = match t.front_is_of {
-        FrontTime::Weights => ("pass 2", "min and max are of pass 2"),
-        FrontTime::Both => ("both passes", "min and max are of both passes"),
-    };
     let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {
         "image MSE"
     } else {
         "T-MSE"
     };
-    let what = match t.front_is_of {
-        FrontTime::Weights => format!(
+    let what = match t.processor {
+        Processor::Gpu => format!(
             "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1 and has only the fragment and its pixel's total to load."
         ),
-        FrontTime::Both => {
+        Processor::Cpu => {
             "Classic methods are this program's f64 reference code, not SIMD; networks f32 SIMD, their passes not apart. For a fair race see a GPU."
                 .to_owned()
         }
@@ -353,7 +344,7 @@ fn table_text(t: &Table, repeat: usize) -> String {
         .map(|l| format!("left out: {}, {}\n", l.method, l.why))
         .collect();
     format!(
-        "{}, {}\n{}ns a fragment, medians of {repeat} repetitions by turns; {of}. *: nothing else is as fast in {time} at as small an {error}.\n{what}\n{left}",
+        "{}, {}\n{}ns a fragment, medians of {repeat} interleaved repetitions. *: nothing else is as fast at as small an {error}.\n{what}\n{left}",
         t.adapter,
         t.clock.name(),
         table(&rows)
@@ -390,7 +381,7 @@ fn chart(scene: &str, t: &Table) -> Option<String> {
         .costs
         .iter()
         .find(|c| c.method == NONE)
-        .map(|c| format!("An empty pass 2 takes {:.1} ns. ", 1e9 * t.time(c) / c.fragments as f64));
+        .map(|c| format!("Empty passes take {:.1} ns. ", 1e9 * t.time(c) / c.fragments as f64));
     let missing = if undrawn.is_empty() {
         String::new()
     } else {
@@ -400,10 +391,7 @@ fn chart(scene: &str, t: &Table) -> Option<String> {
         Clock::Device => "device timestamps",
         Clock::Wall => "wall clock",
     };
-    let time = match t.front_is_of {
-        FrontTime::Weights => "pass 2",
-        FrontTime::Both => "both passes",
-    };
+    let time = "both passes";
     let title = format!("{scene} on {}", t.adapter);
     let cost = format!("{time}, ns a fragment ({clock})");
     tradeoffs(format!("{title}: {cost} against {error}"), &cost, error, &methods)

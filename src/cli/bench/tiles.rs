@@ -44,7 +44,7 @@ impl BenchTiles {
         }
         let mut methods = Vec::new();
         for path in &self.model {
-            methods.push(MethodShader::neural(&shipped::open(path)?, Format::Wgsl)?);
+            methods.push(MethodShader::neural(&shipped::open(path)?, Format::WGSL)?);
         }
         let skips: Vec<Skip> = self.skip.iter().map(|&skip| skip.into()).collect();
         let gpu = Gpu::shared()?;

@@ -3,10 +3,11 @@
 use super::{Evaluate, shadows};
 use crate::export::Format;
 use crate::features::MomentFrame;
-use crate::gpu::{GpuError, MethodShader};
+use crate::gpu::MethodShader;
 use crate::model::shipped;
 use crate::oit::neural::Neural;
-use crate::oit::{Method, all_names, parse};
+use crate::oit::{Method, all_names, parse, shader_of};
+use crate::shader::ShaderError;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -31,11 +32,11 @@ pub struct Requested {
     /// Whether `--skip` is for it: a network of `--model`.
     pub skips: bool,
     /// What the GPU runs; none where there is no shader for it.
-    pub shader: Option<Result<MethodShader, GpuError>>,
+    pub shader: Option<Result<MethodShader, ShaderError>>,
 }
 
-fn shader_of(path: &Path) -> anyhow::Result<Result<MethodShader, GpuError>> {
-    Ok(MethodShader::neural(&shipped::open(path)?, Format::Wgsl))
+fn network_shader(path: &Path) -> anyhow::Result<Result<MethodShader, ShaderError>> {
+    Ok(MethodShader::neural(&shipped::open(path)?, Format::WGSL))
 }
 
 impl Evaluate {
@@ -71,8 +72,8 @@ impl Evaluate {
         let method = parse(name)?;
         let shader = match name.strip_prefix("neural:") {
             _ if !self.gpu => None,
-            Some(path) => Some(shader_of(Path::new(path))?),
-            None => MethodShader::classic(name).map(Ok),
+            Some(path) => Some(network_shader(Path::new(path))?),
+            None => shader_of(name).map(Ok),
         };
         Ok(Requested {
             method,
@@ -90,7 +91,7 @@ impl Evaluate {
             method: Box::new(neural()?),
             demanded: true,
             skips: true,
-            shader: self.gpu.then(|| shader_of(path)).transpose()?,
+            shader: self.gpu.then(|| network_shader(path)).transpose()?,
         }];
         let after = neural()?.with_frame(MomentFrame::Pixel);
         if self.prepass && after.frame() == MomentFrame::Pixel {

@@ -6,8 +6,8 @@ use crate::evaluate::gpu;
 use crate::evaluate::order::spread;
 use crate::evaluate::{MethodResult, Shuffled};
 use crate::gpu::Gpu;
-use crate::gpu::pipeline::TargetPrecision;
 use crate::oit::Capabilities;
+use crate::shader::passes::TargetPrecision;
 
 /// What marks a method whose image depends on the order of the fragments.
 const ORDER_MARK: &str = "†";

@@ -47,6 +47,11 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     return NmtCodes(first, last, first_log2, shift, multiplier, slope);
 }
 
+// Absorbance min(-ln(1 - alpha), 10) of an opacity.
+float nmt_core_absorbance_of(float alpha) {
+    return -log(max(1.0 - alpha, 0.000045399931));
+}
+
 // Steps of a fragment of view depth v.
 uvec2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
     int place = nmt_core_log2(clamp(floatBitsToInt(v), codes.first_bits, codes.last_bits));
@@ -66,6 +71,15 @@ float nmt_core_depth(uvec2 steps) {
 // Absorbance that steps stand for.
 float nmt_core_absorbance(uvec2 steps) {
     return uintBitsToFloat(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
+}
+
+// Moments of a fragment: what pass 1 adds to b1, b2, b3, b4 of its pixel, beside its absorbance to b0.
+vec4 nmt_core_moments(uvec2 steps) {
+    float z = nmt_core_depth(steps);
+    float first = nmt_core_absorbance(steps) * z;
+    float second = first * z;
+    float third = second * z;
+    return vec4(first, second, third, third * z);
 }
 
 // Codes in the three kinds of slots, and back. The greater code stays in a slot.

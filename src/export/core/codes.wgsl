@@ -47,6 +47,11 @@ fn nmt_core_codes(v0: f32, v1: f32) -> NmtCodes {
     return NmtCodes(first, last, first_log2, shift, multiplier, slope);
 }
 
+// Absorbance min(-ln(1 - alpha), 10) of an opacity.
+fn nmt_core_absorbance_of(alpha: f32) -> f32 {
+    return -log(max(1.0 - alpha, 0.000045399931));
+}
+
 // Steps of a fragment of view depth v.
 fn nmt_core_steps(v: f32, absorbance: f32, codes: NmtCodes) -> vec2<u32> {
     let place = nmt_core_log2(clamp(bitcast<i32>(v), codes.first_bits, codes.last_bits));
@@ -66,6 +71,15 @@ fn nmt_core_depth(steps: vec2<u32>) -> f32 {
 // Absorbance that steps stand for.
 fn nmt_core_absorbance(steps: vec2<u32>) -> f32 {
     return bitcast<f32>(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
+}
+
+// Moments of a fragment: what pass 1 adds to b1, b2, b3, b4 of its pixel, beside its absorbance to b0.
+fn nmt_core_moments(steps: vec2<u32>) -> vec4<f32> {
+    let z = nmt_core_depth(steps);
+    let first = nmt_core_absorbance(steps) * z;
+    let second = first * z;
+    let third = second * z;
+    return vec4<f32>(first, second, third, third * z);
 }
 
 // Codes in the three kinds of slots, and back. The greater code stays in a slot.

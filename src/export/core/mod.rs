@@ -3,13 +3,18 @@
 //!
 //! The text stands in files beside this one, a pair a language; words that begin with `CORE_` are filled in.
 //! `nmt_core_insert` needs atomics on a storage buffer in the fragment stage: WebGPU, Vulkan, Metal, Direct3D 11, GLSL
-//! 4.30, and GLSL ES 3.10 where `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` is not 0.
+//! 4.30, and GLSL ES 3.10 where `GL_MAX_FRAGMENT_ATOMIC_COUNTERS` and
+//! `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` are not 0.
 
+mod file;
 #[cfg(test)]
 mod interleaving;
-pub mod shape;
+pub mod weigh;
 
-use shape::CoreShape;
+pub use file::{file_name, named, text, write};
+pub use weigh::{MAX_SHADER_MOMENTS, weigh, weigh_by_network};
+
+use crate::features::core::CoreSet;
 
 /// A language that the core is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,62 +36,69 @@ pub struct CoreBinding {
     pub binding: u32,
 }
 
-impl CoreShape {
-    /// Codes of fragments: constants, `NmtCodes`, `nmt_core_codes`, `nmt_core_steps`, and codes of every kind of slot
-    /// with their inverses.
-    pub fn codes(&self, language: CoreLanguage) -> String {
-        let text = match language {
-            CoreLanguage::Wgsl => include_str!("codes.wgsl"),
-            CoreLanguage::Glsl => include_str!("codes.glsl"),
-            CoreLanguage::Hlsl => include_str!("codes.hlsl"),
-        };
-        text.replace("CORE_DEPTH_BITS", &self.layout.depth_bits.to_string())
-            .replace("CORE_OCTAVE_BITS", &self.layout.octave_bits.to_string())
-            .replace("CORE_HEAVY", &self.heavy.to_string())
-            .replace("CORE_SLOTS", &self.stride().to_string())
-            .replace("CORE_KEY_SCALE", &format!("{:?}", self.layout.key_scale()))
-            .replace("CORE_LAST_ABSORBANCE", &self.layout.last_absorbance_step().to_string())
-    }
+impl CoreBinding {
+    /// Where exports declare it; to be changed by hand where a renderer has something else there.
+    pub const DEFAULT: Self = Self { group: 3, binding: 0 };
+}
 
-    /// The insertion chain, which stands behind [`Self::codes`]: `nmt_core_insert`, and the buffer that it fills.
-    pub fn insert(&self, language: CoreLanguage, place: CoreBinding) -> String {
-        let text = match language {
-            CoreLanguage::Wgsl => include_str!("insert.wgsl"),
-            CoreLanguage::Glsl => include_str!("insert.glsl"),
-            CoreLanguage::Hlsl => include_str!("insert.hlsl"),
-        };
-        text.replace("CORE_GROUP", &place.group.to_string())
-            .replace("CORE_BINDING", &place.binding.to_string())
-    }
+/// Slots of a pixel in a shader's buffer, so many that they can be read four at a time.
+pub fn stride(set: CoreSet) -> usize {
+    set.slots().next_multiple_of(4)
+}
+
+/// Codes of fragments: constants, `NmtCodes`, `nmt_core_codes`, `nmt_core_steps`, what steps stand for, and codes of
+/// every kind of slot with their inverses.
+pub fn codes(set: CoreSet, language: CoreLanguage) -> String {
+    let text = match language {
+        CoreLanguage::Wgsl => include_str!("codes.wgsl"),
+        CoreLanguage::Glsl => include_str!("codes.glsl"),
+        CoreLanguage::Hlsl => include_str!("codes.hlsl"),
+    };
+    text.replace("CORE_DEPTH_BITS", &set.layout.depth_bits.to_string())
+        .replace("CORE_OCTAVE_BITS", &set.layout.octave_bits.to_string())
+        .replace("CORE_HEAVY", &set.heavy.to_string())
+        .replace("CORE_SLOTS", &stride(set).to_string())
+        .replace("CORE_KEY_SCALE", &format!("{:?}", set.layout.key_scale()))
+        .replace("CORE_LAST_ABSORBANCE", &set.layout.last_absorbance_step().to_string())
+}
+
+/// The insertion chain, which stands behind [`codes`]: `nmt_core_insert`, and the buffer that it fills.
+pub fn insert(language: CoreLanguage, place: CoreBinding) -> String {
+    let text = match language {
+        CoreLanguage::Wgsl => include_str!("insert.wgsl"),
+        CoreLanguage::Glsl => include_str!("insert.glsl"),
+        CoreLanguage::Hlsl => include_str!("insert.hlsl"),
+    };
+    text.replace("CORE_GROUP", &place.group.to_string())
+        .replace("CORE_BINDING", &place.binding.to_string())
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
-    use crate::features::core::code::{CodeLayout, MAX_HEAVY};
-
-    /// A usual core of 16 + 16 bits.
-    pub const SHAPE: CoreShape = CoreShape {
-        layout: CodeLayout {
-            depth_bits: 16,
-            octave_bits: 11,
-            key_exponent: 6.0,
-        },
-        heavy: 4,
-    };
+    use crate::features::core::code::MAX_HEAVY;
 
     const PLACE: CoreBinding = CoreBinding { group: 3, binding: 0 };
 
     #[test]
     fn text_of_the_core() {
         for language in [CoreLanguage::Wgsl, CoreLanguage::Glsl, CoreLanguage::Hlsl] {
-            let text = SHAPE.codes(language) + "\n" + &SHAPE.insert(language, PLACE);
-            assert!(!text.contains("CORE_") && text.lines().all(|line| line.len() <= 120));
+            let set = CoreSet::new(4, 2);
+            let text = codes(set, language) + "\n" + &insert(language, PLACE) + &weigh(set, language);
+            assert!(!text.contains("CORE_"));
             insta::assert_snapshot!(format!("core_{language:?}").to_lowercase(), text);
         }
     }
 
-    /// WGSL is valid for naga at every K; control: a chain without its codes is not.
+    #[test]
+    fn pixels_start_at_multiples_of_four_slots() {
+        assert_eq!(
+            [0, 2, 3, 6, 8].map(|heavy| stride(CoreSet::new(heavy, 2))),
+            [4, 4, 8, 8, 12]
+        );
+    }
+
+    /// WGSL is valid for naga at every K and M; control: a chain without its codes is not.
     #[test]
     fn the_chain_is_valid_wgsl() {
         let validate = |source: &str| {
@@ -96,11 +108,14 @@ pub(crate) mod tests {
                 .map(drop)
                 .map_err(|e| e.emit_to_string(source))
         };
+        let insert = insert(CoreLanguage::Wgsl, PLACE);
+        assert!(validate(&insert).is_err());
         for heavy in 0..=MAX_HEAVY {
-            let shape = CoreShape::new(SHAPE.layout, heavy);
-            let insert = shape.insert(CoreLanguage::Wgsl, PLACE);
-            validate(&(shape.codes(CoreLanguage::Wgsl) + &insert)).unwrap();
-            assert!(validate(&insert).is_err());
+            for moments in 1..=4 {
+                let set = CoreSet::new(heavy, moments);
+                let text = codes(set, CoreLanguage::Wgsl) + &insert + &weigh(set, CoreLanguage::Wgsl);
+                validate(&text).unwrap();
+            }
         }
     }
 }

@@ -495,6 +495,6 @@ impl<R: Real, const K: usize> Rounded<R, K> {
 /// 1/(1 + noise²)
 #[inline(always)]
 fn trust<R: Real>(noise: R) -> R {
-    let bounded = noise.min(c(1e15)).named("bounded");
-    c(1.0) / (c(1.0) + square(bounded))
+    let rounded = noise.named("rounded");
+    c(1.0) / (c(1.0) + square(rounded))
 }

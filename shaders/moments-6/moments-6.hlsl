@@ -1,0 +1,606 @@
+// Neural moment transparency: network 'moments-6', 9-32-16-1, 816 multiply-adds.
+// Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
+// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].
+//
+// Features, set 'recentred-6', in this order: x, count, ln_b0, mean, spread, inner_mean, inner_spread, inner2_mean, inner2_spread.
+// v is distance along the view direction and z = 2 ln(v/v0)/ln(v1/v0) - 1 moment depth, v0 and v1 the scene's least and greatest v;
+// pass 1 adds up b_k = sum of A z^k, counts fragments (n) and keeps the pixel's least and greatest v as f32.
+// A = min(-ln(1 - alpha), 10) is a fragment's absorbance; primed quantities leave out the fragment's own, b_k' = b_k - A z^k.
+// c and h are middle and half of the pixel's range of z; m_k = moments of the others in (z - c)/h, normalised by b_0'.
+// x = (z - c)/h, count = log2(n)/3 - 1, ln_b0 = ln(b_0' + 0.05);
+// mean = m_1, spread = (m_2 - m_1^2)/(1 - m_1^2); inner_ of (1 - x^2) times the measure: mean = (m_1 - m_3)/(1 - m_2),
+// spread = the square root of the same ratio of its own; inner2_ and inner3_ of (1 - x^2)^2 and (1 - x^2)^3, faded out where f32 leaves noise.
+// The answer is T = exp(-b_0' s), s the network's sigmoid: the share of the other absorbance that lies in front.
+// Not part of the network, and to be applied before it, in this order: nearest in its pixel (v compared bit for bit): T = 1;
+// b_0' <= 1e-6 b_0: T = 1; farthest: T = exp(-b_0'); three fragments: T = exp(-b_0' (1 - m_1)/2);
+// four fragments: the closed form in nmt_recentred.
+// So pixels of up to four fragments, and all that is nearest or farthest, never need the network.
+//
+// Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 600, dataset 37f23ca23c85cddd29cc28c82e42ad387652d607b62fdde6a7e9a18fca6b8f75.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.305e-3, worst 0.995.
+
+#ifndef NMT_INCLUDED_MOMENTS_6
+#define NMT_INCLUDED_MOMENTS_6
+
+// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
+float nmt_absorbance(float alpha) {
+    float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
+    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931)));
+}
+
+// ln(a / b), as accurate relative to itself where a is near b as elsewhere.
+float nmt_log_ratio(float a, float b) {
+    float s = (a - b) / (a + b);
+    float q = s * s;
+    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))) : log(a / b));
+}
+
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
+// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+float nmt_moment_depth(float v, float v0, float v1) {
+    float warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
+    return (v1 > v0 ? clamp(warped, -1.0, 1.0) : 0.0);
+}
+
+// Pass 1: what a fragment at moment depth z adds to b1..b6; to b0 it adds its absorbance, to n it adds 1.
+void nmt_moments(float z, float absorbance, out float result[6]) {
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    float own5 = own4 * z;
+    float own6 = own5 * z;
+    result[0] = own1;
+    result[1] = own2;
+    result[2] = own3;
+    result[3] = own4;
+    result[4] = own5;
+    result[5] = own6;
+}
+
+// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.
+static const float NMT_ROUNDING = 1.1920929e-7f;
+
+// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,
+// their moment depths, number of fragments n, total absorbance b0 and moments b1..b6. The result holds the 9 features, then T where it is
+// known without the network, else -1. No branch is taken.
+void nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[6], out float result[10]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30f);
+    float c = 0.5 * (z_nearest + z_farthest);
+    float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    float own5 = own4 * z;
+    float own6 = own5 * z;
+    float per_b0 = 1.0 / max(others, 1e-30);
+    float m1 = (b[0] - own1) * per_b0;
+    float m2 = (b[1] - own2) * per_b0;
+    float m3 = (b[2] - own3) * per_b0;
+    float m4 = (b[3] - own4) * per_b0;
+    float m5 = (b[4] - own5) * per_b0;
+    float m6 = (b[5] - own6) * per_b0;
+    m6 = m6 - c * m5;
+    m5 = m5 - c * m4;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m1 = m1 - c;
+    m6 = m6 - c * m5;
+    m5 = m5 - c * m4;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m6 = m6 - c * m5;
+    m5 = m5 - c * m4;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m6 = m6 - c * m5;
+    m5 = m5 - c * m4;
+    m4 = m4 - c * m3;
+    m6 = m6 - c * m5;
+    m5 = m5 - c * m4;
+    m6 = m6 - c * m5;
+    float h2 = h1 * h1;
+    float h3 = h2 * h1;
+    float h4 = h2 * h2;
+    m1 = clamp(m1 * h1, -1.0, 1.0);
+    m2 = clamp(m2 * h2, -1.0, 1.0);
+    m3 = clamp(m3 * h3, -1.0, 1.0);
+    m4 = clamp(m4 * h4, -1.0, 1.0);
+    m5 = clamp(m5 * h4 * h1, -1.0, 1.0);
+    m6 = clamp(m6 * h4 * h2, -1.0, 1.0);
+    float along = (z - c) * h1;
+    float range = farthest - nearest;
+    float ratio = range / nearest;
+    float t = (v - nearest) / max(range, 1e-30);
+    float x = clamp((ratio < 0.01f ? 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0 : along), -1.0, 1.0);
+    float reach = 1.0 + 2.0 * abs(c) * h1;
+    float e1 = NMT_ROUNDING * reach * b0 * per_b0;
+    float per_n = 1.0 / n;
+    float noise1 = e1 * (0.12f * sqrt(n));
+    float deviation1 = 0.22f + 0.7f * per_n;
+    float trust1 = deviation1 * deviation1;
+    float mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
+    float front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
+    float further = reach * 0.87f;
+    float noise2 = min(noise1 * further, 1e15);
+    float noise3 = noise1 * further * further;
+    float most0 = max(1.0 - mean0 * mean0, 1e-6);
+    float deviation2 = 0.12f + 0.5f * per_n;
+    float trust2 = deviation2 * deviation2 * most0;
+    float doubt2 = noise2 * noise2;
+    float spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3f + 1.8f * per_n) * doubt2) / (most0 * trust2 + doubt2);
+    float per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
+    float mean_part = 1.0 + spread0;
+    float deviation3 = (0.17f + 3.1f * per_n) * (spread0 + 0.02);
+    float trust3 = deviation3 * deviation3;
+    float bounded3 = min(noise3 * per_mass1, 1e15);
+    float doubt3 = bounded3 * bounded3;
+    float expected3 = mean0 * (1.0 - spread0);
+    float raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
+    float mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
+    float noise = bounded3 + 9.536743e-7f * per_mass1;
+    float off = noise * deviation3 / (noise + deviation3);
+    float inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
+    float near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
+    float far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
+    float behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
+    float front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
+    float front = -1.0;
+    front = (n == 4.0 ? front4 : front);
+    front = (n == 3.0 ? front3 : front);
+    front = (v == farthest ? others : front);
+    front = (others > 1e-6 * b0 ? front : 0.0);
+    front = (v == nearest ? 0.0 : front);
+    float known = (front >= 0.0 ? min(exp(-front), 1.0) : -1.0);
+    float count = log(n) * 0.48089835f - 1.0;
+    float most1 = max(1.0 - mean1 * mean1, 1e-6);
+    float spread_part = mean_part + spread0;
+    float offset = mean1 * mean_part - expected3;
+    float square0 = spread0 * spread0;
+    float expected4 = clamp((0.94f + -3.8f * per_n + 4.0f * square0 * square0 - 1.2f * offset * offset) * spread0, 0.0, spread_part);
+    float deviation4 = (0.12f + 1.4f * per_n) * (spread0 + 0.02);
+    float trust4 = deviation4 * deviation4 * most1;
+    float bounded4 = min(noise3 * further * per_mass1, 1e15);
+    float doubt4 = bounded4 * bounded4;
+    float raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
+    float square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
+    float spread1 = sqrt(square1);
+    float q1_0 = 1.0 - m2;
+    float q1_1 = m1 - m3;
+    float q1_2 = m2 - m4;
+    float q1_3 = m3 - m5;
+    float q1_4 = m4 - m6;
+    float q2_0 = q1_0 - q1_2;
+    float q2_1 = q1_1 - q1_3;
+    float q2_2 = q1_2 - q1_4;
+    float per_mass2 = 1.0 / max(q2_0, 1e-6);
+    float mean2 = clamp(q2_1 * per_mass2, -1.0, 1.0);
+    float most2 = max(1.0 - mean2 * mean2, 1e-6);
+    float spread2 = sqrt(clamp((q2_2 * per_mass2 - mean2 * mean2) / most2, 0.0, 1.0));
+    float noise_mean2 = e1 * reach * reach * reach * reach * per_mass2;
+    float trust_mean2 = 1.0 / (1.0 + noise_mean2 * noise_mean2);
+    float sure_mean2 = mean2 * trust_mean2;
+    float noise_spread2 = e1 * reach * reach * reach * reach * reach * per_mass2;
+    float trust_spread2 = 1.0 / (1.0 + noise_spread2 * noise_spread2);
+    float sure_spread2 = 0.5 + (spread2 - 0.5) * trust_spread2;
+    result[0] = x;
+    result[1] = count;
+    result[2] = log(others + 0.05f);
+    result[3] = mean0;
+    result[4] = spread0;
+    result[5] = mean1;
+    result[6] = spread1;
+    result[7] = sure_mean2;
+    result[8] = sure_spread2;
+    result[9] = known;
+}
+
+static const float4x4 NMT_W1[24] = {
+    float4x4(float4(-6.111781f, 1.2590787f, 0.5475349f, -1.2606547f), float4(-0.9432912f, -0.027208287f, -0.30223295f, -0.008989807f), float4(0.10382608f, 0.04081687f, 0.00517731f, 0.13695489f), float4(0.5247361f, 7.551865f, -1.6350569f, 7.4871354f)),
+    float4x4(float4(-1.2694472f, -9.020549f, -6.307308f, 0.1156755f), float4(-0.5863311f, -6.3508167f, 2.2088974f, -0.95557034f), float4(2.519586f, -4.0575604f, 6.3729653f, -1.4507685f), float4(0.05811975f, -0.25461668f, -0.4064348f, -0.41226965f)),
+    float4x4(float4(-1.603955f, -0.63644004f, 0.49392483f, 1.1919441f), float4(-5.366019f, 2.9462543f, -0.4136076f, -3.124585f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-2.7355766f, 1.0036091f, -2.8403323f, -4.795097f), float4(0.024920808f, -0.23226534f, 0.5254088f, 0.11377028f), float4(0.13349196f, 0.07365853f, 0.20932944f, 0.016179072f), float4(-1.6250459f, -4.8359137f, -0.08537557f, -0.19261461f)),
+    float4x4(float4(0.13225362f, 2.89904f, -3.04994f, 0.36533222f), float4(4.800494f, 3.977632f, -0.61880076f, 0.12900063f), float4(-1.0653358f, -3.289986f, 2.3399897f, -0.22318892f), float4(-2.6758354f, 0.62541056f, -0.4392313f, 0.027572617f)),
+    float4x4(float4(5.42803f, 0.50919867f, -1.5685683f, -0.007823314f), float4(-4.863298f, 1.7043099f, -0.4714574f, -4.861206f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-0.13962865f, 1.5440083f, 3.000412f, 3.4353843f), float4(-0.57095677f, -0.061338373f, 0.2472489f, 0.19988087f), float4(-0.32642198f, 0.0010412352f, -0.021046346f, -0.012095685f), float4(0.24782896f, 2.2739713f, 5.3219786f, -4.776767f)),
+    float4x4(float4(-0.47955763f, -0.82601726f, 4.6288095f, -2.1269662f), float4(-0.6476124f, -9.601333f, -3.9761598f, 0.89417446f), float4(-0.0847439f, 4.3309703f, 1.7938333f, 0.48631155f), float4(0.4469387f, 8.027626f, -1.1833122f, 0.0064941095f)),
+    float4x4(float4(-0.49138308f, -2.9760563f, -0.9328496f, 0.8670376f), float4(-0.87651825f, 0.64863366f, -5.0546846f, 2.3387825f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-3.5760229f, 4.533266f, -1.6427152f, -1.4796346f), float4(-0.07957402f, -0.33262858f, 0.39887205f, -0.07089995f), float4(-0.014048754f, -0.053987775f, -0.08135598f, -0.000117340634f), float4(-0.11836353f, 0.44236583f, 3.952692f, -0.06623836f)),
+    float4x4(float4(-1.128837f, -0.3080469f, -5.6531177f, -1.2193537f), float4(-0.6106688f, -2.1997905f, -4.896287f, 2.2838867f), float4(5.117241f, 6.327744f, 3.4865515f, 3.0882306f), float4(1.010223f, 0.340252f, -0.53299254f, -1.0834862f)),
+    float4x4(float4(-5.1776967f, 0.98614454f, 1.1521934f, -6.7103496f), float4(-3.1058083f, -2.119367f, -1.3814752f, 1.0148283f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(0.9691913f, 3.6027002f, 3.4038823f, -1.4982073f), float4(-0.09721829f, 0.7538304f, 0.11502148f, -0.36653677f), float4(0.069223955f, -0.050337084f, 0.05156069f, 0.00126499f), float4(4.8298807f, -1.5281683f, -6.356912f, 1.9819074f)),
+    float4x4(float4(-9.021647f, 2.6192272f, -8.228654f, -3.639272f), float4(-4.886636f, -1.1694726f, 0.33833027f, 3.7475548f), float4(5.3034215f, 1.6796954f, 4.7872767f, 4.596024f), float4(-1.2544109f, 2.2807274f, -0.3591253f, -0.5454767f)),
+    float4x4(float4(1.7421607f, 1.9923266f, -0.03349984f, -0.19245246f), float4(0.29631603f, 0.41034484f, 0.5748713f, -0.49153104f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-1.2280331f, 3.3868275f, -2.665127f, -0.74408203f), float4(0.043601274f, -0.4817103f, -0.18844081f, -0.06487209f), float4(0.012015421f, -0.026456503f, 0.008891798f, 0.0075397766f), float4(-4.4597335f, 1.201724f, 1.7545215f, 2.532967f)),
+    float4x4(float4(3.5101607f, -1.9561962f, -1.3536254f, -2.4960887f), float4(3.8059118f, -0.80123705f, -7.3587255f, -8.631405f), float4(2.9984262f, 0.8873145f, 0.38955295f, 5.230721f), float4(-0.08283735f, -0.27585363f, 5.9716625f, 6.624569f)),
+    float4x4(float4(-0.40433055f, 0.029642176f, 2.079507f, -3.0390704f), float4(-2.4578543f, 3.7255483f, -2.189978f, -0.87685984f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-3.262312f, 2.3860085f, 6.7077255f, 1.7991533f), float4(-0.16270845f, 0.032198705f, -0.05943885f, -0.3940928f), float4(0.058438443f, 0.015088889f, -0.042749982f, 0.07342043f), float4(-0.7669092f, -2.3534462f, 0.99614793f, 2.8025775f)),
+    float4x4(float4(-0.9087242f, 3.0325496f, -1.396636f, -1.098918f), float4(3.3784263f, 6.4511676f, -6.228715f, -4.159704f), float4(0.8494316f, -2.7000678f, 2.0243857f, -5.193673f), float4(0.20995937f, -4.190236f, -0.61862284f, -0.02107041f)),
+    float4x4(float4(0.12992106f, 0.29974172f, -0.70772874f, -0.85352206f), float4(0.72485054f, 2.2938392f, 1.3125209f, 4.1111984f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-5.3910193f, 5.217595f, 3.4597962f, 1.1132557f), float4(0.0527404f, -0.22649224f, 0.2102456f, -0.04448421f), float4(0.02741702f, -0.05801576f, -0.004462379f, 0.038614187f), float4(0.07164862f, -1.0982728f, 1.1179584f, 4.9506955f)),
+    float4x4(float4(-0.22796391f, -6.7252426f, 5.3008366f, -4.017342f), float4(5.2988577f, 1.8783277f, -1.299335f, -4.2415414f), float4(-1.6573465f, 3.03367f, 0.923951f, -3.392957f), float4(0.03842112f, 0.5970927f, 0.58665645f, 0.46000332f)),
+    float4x4(float4(-0.08871091f, 0.49993217f, -2.3402717f, 1.2996048f), float4(0.29164585f, -0.08348722f, 0.049777083f, 2.3808312f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f))
+};
+static const float4x4 NMT_W2[32] = {
+    float4x4(float4(-2.992966f, -2.858956f, -4.254115f, -0.22101966f), float4(1.8619783f, -1.7560344f, 0.18683062f, 0.71421546f), float4(-0.9313739f, 4.859132f, 0.6138396f, 0.49655724f), float4(-0.37038225f, 0.020796178f, 0.7491361f, 0.8727151f)),
+    float4x4(float4(0.36748806f, -0.7872776f, -3.911794f, 0.009744219f), float4(-1.1042612f, 3.0573065f, 0.22637399f, 0.12707636f), float4(0.9925066f, -0.4076182f, 0.97743005f, 0.30577096f), float4(7.2628703f, -21.080715f, -4.972773f, -3.7080753f)),
+    float4x4(float4(0.71003896f, -0.057421677f, -0.7333687f, -0.1349236f), float4(-3.0351005f, -0.025662167f, 5.439921f, 1.1083124f), float4(-1.2842412f, -0.40064743f, 2.132936f, 0.4587207f), float4(-0.4143241f, 3.001643f, 0.0988189f, -0.26960135f)),
+    float4x4(float4(0.91364557f, 0.14445628f, -8.310524f, -0.065409906f), float4(-3.2332554f, -2.9022744f, -15.36157f, 0.50497496f), float4(0.8229345f, -2.064584f, 0.12143615f, -0.10263531f), float4(0.054719314f, 2.4150016f, 1.2882204f, 1.110596f)),
+    float4x4(float4(-0.6192766f, 3.047318f, -0.96840745f, 0.2605519f), float4(-1.2917666f, -2.2279055f, -1.8872515f, 0.68316597f), float4(0.109164976f, 2.52896f, 0.8579186f, 0.15905996f), float4(-0.69663775f, 1.246913f, -0.710606f, 0.92853165f)),
+    float4x4(float4(0.9062126f, 1.0490677f, 1.9008839f, -1.0397452f), float4(1.6107726f, -1.0856603f, 1.346723f, 0.993593f), float4(1.7179087f, 0.22983813f, -3.5189588f, -1.0520781f), float4(2.4576623f, 0.5125091f, -6.4215956f, -0.5380803f)),
+    float4x4(float4(0.3615602f, -4.6017222f, -0.14912221f, 0.4948515f), float4(-0.63468134f, -9.653261f, -1.9091142f, -0.03045894f), float4(-2.565982f, -2.7410276f, -8.579719f, -1.8886751f), float4(0.37309378f, -0.7666512f, 0.9897772f, -0.053876042f)),
+    float4x4(float4(0.14261079f, -2.7428598f, 0.71818084f, 0.079738714f), float4(1.1686169f, 2.7973378f, -12.209488f, -1.3224617f), float4(-0.10436231f, 3.5554519f, -1.8719939f, -0.083544716f), float4(0.37562165f, -2.0031798f, -1.140298f, 1.4245508f)),
+    float4x4(float4(0.07020887f, -7.7853203f, 3.2623754f, -0.9289991f), float4(-0.41948175f, 0.91524047f, -0.09373543f, 3.1709063f), float4(1.707971f, 0.79446125f, 0.14929785f, 2.5686665f), float4(-0.056600675f, -0.1659347f, 5.8103175f, -1.8952311f)),
+    float4x4(float4(-4.786343f, 1.030607f, 0.3021604f, -0.21997102f), float4(2.4703267f, 1.123544f, 2.1217737f, -0.52224094f), float4(-2.2712877f, 0.5158962f, 0.3472931f, 1.4640517f), float4(0.11313607f, -13.780107f, 8.568549f, -13.411448f)),
+    float4x4(float4(-0.04082529f, 0.1669218f, 0.46733433f, -0.36587787f), float4(0.34007803f, 1.5025666f, -1.0191387f, -2.497706f), float4(5.29306f, -0.110161185f, -0.45350894f, -2.687117f), float4(1.1021147f, -0.042523265f, -8.089456f, -1.1886902f)),
+    float4x4(float4(0.3839846f, 1.6447116f, -2.4580069f, -0.70252365f), float4(0.26104167f, -0.5908336f, 0.026685795f, -1.7847142f), float4(-5.2497396f, -0.5974036f, -3.9859402f, 1.2823159f), float4(-2.8455558f, 1.4684895f, 0.58783984f, 0.48113063f)),
+    float4x4(float4(0.16200472f, 0.6974124f, -0.056665666f, 5.1168947f), float4(-1.1185981f, 0.28122574f, -1.1758981f, -0.2487846f), float4(-0.40818137f, 0.45375705f, 0.3172075f, -2.4046204f), float4(-3.1995828f, 1.259068f, 1.8805319f, 2.4689593f)),
+    float4x4(float4(-1.3353378f, 0.63000417f, 0.38511258f, 2.2301257f), float4(0.2802323f, -0.1214043f, 0.15000337f, -1.1558938f), float4(0.71096516f, -1.684167f, -0.530025f, -0.8572137f), float4(-3.2262592f, -0.68959f, 2.0129254f, 4.257681f)),
+    float4x4(float4(-19.512064f, -0.18027107f, -3.1857862f, -0.6899437f), float4(-0.3005064f, -0.34270313f, -0.42363968f, -5.0216107f), float4(-2.4683843f, 0.21464697f, 1.3507403f, -2.8129263f), float4(-0.07548671f, -0.8579342f, -1.1152614f, 3.2826817f)),
+    float4x4(float4(-12.441226f, -1.5329676f, -0.020585677f, -1.3522521f), float4(6.684407f, -1.0653955f, 2.805359f, -5.174105f), float4(-1.2013803f, -0.14954259f, 1.1032336f, -2.7582016f), float4(-1.0236809f, -0.6934412f, 0.20977055f, -0.44141737f)),
+    float4x4(float4(-0.08507485f, -3.0545528f, 0.096640795f, -2.997112f), float4(0.016383547f, -0.38022602f, -0.32512355f, -2.9064112f), float4(-0.18832994f, -2.7187495f, -0.30681947f, 3.0764172f), float4(0.032234084f, -0.674778f, -0.26126426f, -0.7389055f)),
+    float4x4(float4(-0.30429694f, -5.9502687f, -0.25058585f, -0.56996036f), float4(-0.44421595f, 1.3879135f, -0.46375105f, -1.5739975f), float4(-0.5096615f, 1.5734165f, -0.22679868f, 0.034422264f), float4(-0.30219105f, -18.450062f, -0.06314865f, -11.160464f)),
+    float4x4(float4(-0.02603846f, 0.30140403f, 0.2238884f, -0.4666892f), float4(-0.029553855f, 1.2880361f, 0.108896896f, -2.0154498f), float4(-0.14497134f, 0.71481055f, -0.06489657f, 1.5688689f), float4(-0.43832225f, 1.1543839f, -0.74085f, 1.265431f)),
+    float4x4(float4(0.17543544f, -4.287299f, 0.035343643f, 2.50911f), float4(0.15206087f, 0.5505871f, -0.5673676f, -2.6335747f), float4(-0.2942823f, -2.0406406f, 0.12456984f, -1.7555345f), float4(-0.01804171f, 4.622501f, -0.11310927f, 3.5968187f)),
+    float4x4(float4(-0.24732798f, 0.020867135f, 0.11910821f, -0.59342366f), float4(-0.24452622f, -0.71158904f, -0.73464835f, 0.033891715f), float4(0.060986243f, 0.14190178f, 0.103602394f, -0.3242666f), float4(-0.32296723f, -2.1236103f, -0.11954761f, -0.5252579f)),
+    float4x4(float4(-0.22450684f, -2.814268f, -0.18150029f, 1.3641322f), float4(0.027793886f, -0.5324461f, -0.20759605f, -2.3197892f), float4(0.04657861f, 1.1140198f, 0.24319865f, -9.763681f), float4(-0.35169291f, -1.7075313f, -0.068953544f, -9.342775f)),
+    float4x4(float4(-0.4123966f, -5.300227f, -0.0910799f, -2.8317666f), float4(-0.287858f, 0.46392447f, -0.16798578f, 0.6952194f), float4(-0.1862946f, -0.63765377f, -0.69623035f, 2.604372f), float4(-0.33906487f, -0.5565427f, -0.42190912f, -0.23940141f)),
+    float4x4(float4(-0.12144742f, -20.892881f, -0.4145004f, 1.2375941f), float4(-0.697824f, 1.987435f, -0.5976051f, 4.402753f), float4(-0.20529044f, -0.3576681f, -0.21677442f, -0.24279527f), float4(-0.08807971f, 2.9789166f, 0.071931176f, -2.929071f)),
+    float4x4(float4(-2.6315901f, -0.34439078f, -2.9610267f, -1.0923961f), float4(0.223164f, 1.8039895f, 2.5519726f, -0.9711679f), float4(-0.24532005f, -2.3492897f, -1.4704975f, 0.76217866f), float4(0.36889645f, -0.115326025f, 0.35473856f, -0.20498301f)),
+    float4x4(float4(-0.88672864f, -0.39859805f, 2.39492f, 1.744944f), float4(-0.69307685f, -0.99920523f, 4.2183623f, -0.87868303f), float4(0.35942724f, -0.29691926f, 1.0818437f, 1.3207207f), float4(-30.2384f, 0.10928893f, -7.0647554f, 15.717544f)),
+    float4x4(float4(-0.20164908f, -0.19088599f, 0.1551302f, 0.04737597f), float4(-0.81887734f, -3.1323016f, -2.7505014f, -1.5834199f), float4(-0.14424095f, -1.555143f, -4.6802588f, -1.3235509f), float4(-0.25277188f, -0.4647671f, 1.6973499f, -0.99667746f)),
+    float4x4(float4(0.78845274f, 0.7655463f, 3.7973511f, 3.320911f), float4(-1.2283723f, -4.476903f, -3.5822878f, -3.721869f), float4(0.46523815f, 0.041043233f, 2.1500504f, 1.4796671f), float4(-4.0602994f, 2.0099647f, 0.85182285f, -0.7933596f)),
+    float4x4(float4(0.35618836f, -0.5405226f, -0.8827116f, 1.0714078f), float4(1.0268298f, -0.2317349f, -2.412876f, -1.5990334f), float4(0.2031206f, -0.9403622f, 1.6003618f, -1.0273224f), float4(0.9049673f, 0.47973f, -1.1511244f, 0.058414135f)),
+    float4x4(float4(1.9166514f, 1.426175f, -1.1536136f, 1.3503083f), float4(2.6654356f, -2.2231581f, 0.58408207f, 2.110834f), float4(-0.79796445f, -3.0819988f, 0.9331857f, 0.02824189f), float4(1.5963962f, 7.198678f, 2.0963554f, 2.8723466f)),
+    float4x4(float4(-1.2596036f, 0.631166f, -11.672623f, -0.5510185f), float4(-1.0386657f, -3.2057896f, -2.1611688f, -1.6124867f), float4(-0.38434005f, -3.9630258f, -1.478051f, -2.4563847f), float4(1.4227921f, 1.0508367f, 1.2534283f, 0.904385f)),
+    float4x4(float4(-0.8039124f, -1.2763106f, -23.93499f, 0.287792f), float4(-1.8194247f, -1.8709297f, 1.4603959f, 0.10037173f), float4(-0.9812876f, -2.6164715f, -0.132473f, -1.9431459f), float4(-1.5269586f, -0.5822796f, 1.6227671f, -0.8949245f))
+};
+static const float4 NMT_B2[4] = {
+    float4(1.2619187f, -2.5986087f, -2.149382f, 1.3353654f),
+    float4(-4.6729555f, 3.27779f, -12.580061f, -0.2602885f),
+    float4(-0.13580789f, 0.6970699f, -0.15496458f, 0.740331f),
+    float4(-0.12114108f, 1.2450967f, -2.2606373f, -0.36267692f)
+};
+static const float4 NMT_W3[4] = {
+    float4(-0.20100085f, 0.17548272f, 0.09926478f, -0.21060409f),
+    float4(0.18316391f, 0.13202123f, -0.10359111f, -0.18595253f),
+    float4(0.5044715f, 0.1379622f, -0.045420256f, 0.09471249f),
+    float4(0.13760756f, 0.21741933f, 0.2403533f, -0.21945743f)
+};
+static const float NMT_B3 = -0.117446944f;
+
+// Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
+float nmt_share(float f[9]) {
+    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
+    float4 h0_1 = float4(f[4], f[5], f[6], f[7]);
+    float4 h0_2 = float4(f[8], 1.0f, 0.0f, 0.0f);
+    float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]) + mul(h0_2, NMT_W1[2]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_1 = max(mul(h0_0, NMT_W1[3]) + mul(h0_1, NMT_W1[4]) + mul(h0_2, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_2 = max(mul(h0_0, NMT_W1[6]) + mul(h0_1, NMT_W1[7]) + mul(h0_2, NMT_W1[8]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_3 = max(mul(h0_0, NMT_W1[9]) + mul(h0_1, NMT_W1[10]) + mul(h0_2, NMT_W1[11]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_4 = max(mul(h0_0, NMT_W1[12]) + mul(h0_1, NMT_W1[13]) + mul(h0_2, NMT_W1[14]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_5 = max(mul(h0_0, NMT_W1[15]) + mul(h0_1, NMT_W1[16]) + mul(h0_2, NMT_W1[17]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_6 = max(mul(h0_0, NMT_W1[18]) + mul(h0_1, NMT_W1[19]) + mul(h0_2, NMT_W1[20]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h1_7 = max(mul(h0_0, NMT_W1[21]) + mul(h0_1, NMT_W1[22]) + mul(h0_2, NMT_W1[23]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h2_0 = max(NMT_B2[0] + mul(h1_0, NMT_W2[0]) + mul(h1_1, NMT_W2[1]) + mul(h1_2, NMT_W2[2]) + mul(h1_3, NMT_W2[3]) + mul(h1_4, NMT_W2[4]) + mul(h1_5, NMT_W2[5]) + mul(h1_6, NMT_W2[6]) + mul(h1_7, NMT_W2[7]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h2_1 = max(NMT_B2[1] + mul(h1_0, NMT_W2[8]) + mul(h1_1, NMT_W2[9]) + mul(h1_2, NMT_W2[10]) + mul(h1_3, NMT_W2[11]) + mul(h1_4, NMT_W2[12]) + mul(h1_5, NMT_W2[13]) + mul(h1_6, NMT_W2[14]) + mul(h1_7, NMT_W2[15]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h2_2 = max(NMT_B2[2] + mul(h1_0, NMT_W2[16]) + mul(h1_1, NMT_W2[17]) + mul(h1_2, NMT_W2[18]) + mul(h1_3, NMT_W2[19]) + mul(h1_4, NMT_W2[20]) + mul(h1_5, NMT_W2[21]) + mul(h1_6, NMT_W2[22]) + mul(h1_7, NMT_W2[23]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float4 h2_3 = max(NMT_B2[3] + mul(h1_0, NMT_W2[24]) + mul(h1_1, NMT_W2[25]) + mul(h1_2, NMT_W2[26]) + mul(h1_3, NMT_W2[27]) + mul(h1_4, NMT_W2[28]) + mul(h1_5, NMT_W2[29]) + mul(h1_6, NMT_W2[30]) + mul(h1_7, NMT_W2[31]), float4(0.0f, 0.0f, 0.0f, 0.0f));
+    float logit = NMT_B3 + dot(NMT_W3[0], h2_0) + dot(NMT_W3[1], h2_1) + dot(NMT_W3[2], h2_2) + dot(NMT_W3[3], h2_3);
+    return 1.0 / (1.0 + exp(min(-logit, 80.0)));
+}
+
+// Transmittance in front of the fragment with features f, in [0, 1].
+float nmt_transmittance(float f[9]) {
+    float absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+    return exp(-min(absorbance * nmt_share(f), 80.0));
+}
+
+// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features
+// and the network, so that groups of threads in which all is known skip them.
+float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[6]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30f);
+    float front = 0.0;
+    if (v != nearest) {
+        if (others > 1e-6 * b0) {
+            front = others;
+            if (v != farthest) {
+                float c = 0.5 * (z_nearest + z_farthest);
+                float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
+                float own1 = absorbance * z;
+                float own2 = own1 * z;
+                float own3 = own2 * z;
+                float own4 = own3 * z;
+                float own5 = own4 * z;
+                float own6 = own5 * z;
+                float per_b0 = 1.0 / max(others, 1e-30);
+                float m1 = (b[0] - own1) * per_b0;
+                float m2 = (b[1] - own2) * per_b0;
+                float m3 = (b[2] - own3) * per_b0;
+                float m4 = (b[3] - own4) * per_b0;
+                float m5 = (b[4] - own5) * per_b0;
+                float m6 = (b[5] - own6) * per_b0;
+                m6 = m6 - c * m5;
+                m5 = m5 - c * m4;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m2 = m2 - c * m1;
+                m1 = m1 - c;
+                m6 = m6 - c * m5;
+                m5 = m5 - c * m4;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m2 = m2 - c * m1;
+                m6 = m6 - c * m5;
+                m5 = m5 - c * m4;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m6 = m6 - c * m5;
+                m5 = m5 - c * m4;
+                m4 = m4 - c * m3;
+                m6 = m6 - c * m5;
+                m5 = m5 - c * m4;
+                m6 = m6 - c * m5;
+                float h2 = h1 * h1;
+                float h3 = h2 * h1;
+                float h4 = h2 * h2;
+                m1 = clamp(m1 * h1, -1.0, 1.0);
+                m2 = clamp(m2 * h2, -1.0, 1.0);
+                m3 = clamp(m3 * h3, -1.0, 1.0);
+                m4 = clamp(m4 * h4, -1.0, 1.0);
+                m5 = clamp(m5 * h4 * h1, -1.0, 1.0);
+                m6 = clamp(m6 * h4 * h2, -1.0, 1.0);
+                float along = (z - c) * h1;
+                float range = farthest - nearest;
+                float ratio = range / nearest;
+                float t = (v - nearest) / max(range, 1e-30);
+                float x = clamp((ratio < 0.01f ? 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0 : along), -1.0, 1.0);
+                float reach = 1.0 + 2.0 * abs(c) * h1;
+                float e1 = NMT_ROUNDING * reach * b0 * per_b0;
+                float per_n = 1.0 / n;
+                float noise1 = e1 * (0.12f * sqrt(n));
+                float deviation1 = 0.22f + 0.7f * per_n;
+                float trust1 = deviation1 * deviation1;
+                float mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
+                float front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
+                front = front3;
+                if (n != 3.0) {
+                    float further = reach * 0.87f;
+                    float noise2 = min(noise1 * further, 1e15);
+                    float noise3 = noise1 * further * further;
+                    float most0 = max(1.0 - mean0 * mean0, 1e-6);
+                    float deviation2 = 0.12f + 0.5f * per_n;
+                    float trust2 = deviation2 * deviation2 * most0;
+                    float doubt2 = noise2 * noise2;
+                    float spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3f + 1.8f * per_n) * doubt2) / (most0 * trust2 + doubt2);
+                    float per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
+                    float mean_part = 1.0 + spread0;
+                    float deviation3 = (0.17f + 3.1f * per_n) * (spread0 + 0.02);
+                    float trust3 = deviation3 * deviation3;
+                    float bounded3 = min(noise3 * per_mass1, 1e15);
+                    float doubt3 = bounded3 * bounded3;
+                    float expected3 = mean0 * (1.0 - spread0);
+                    float raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
+                    float mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
+                    float noise = bounded3 + 9.536743e-7f * per_mass1;
+                    float off = noise * deviation3 / (noise + deviation3);
+                    float inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
+                    float near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
+                    float far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
+                    float behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
+                    float front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
+                    front = front4;
+                    if (n != 4.0) {
+                        float count = log(n) * 0.48089835f - 1.0;
+                        float most1 = max(1.0 - mean1 * mean1, 1e-6);
+                        float spread_part = mean_part + spread0;
+                        float offset = mean1 * mean_part - expected3;
+                        float square0 = spread0 * spread0;
+                        float expected4 = clamp((0.94f + -3.8f * per_n + 4.0f * square0 * square0 - 1.2f * offset * offset) * spread0, 0.0, spread_part);
+                        float deviation4 = (0.12f + 1.4f * per_n) * (spread0 + 0.02);
+                        float trust4 = deviation4 * deviation4 * most1;
+                        float bounded4 = min(noise3 * further * per_mass1, 1e15);
+                        float doubt4 = bounded4 * bounded4;
+                        float raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
+                        float square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
+                        float spread1 = sqrt(square1);
+                        float q1_0 = 1.0 - m2;
+                        float q1_1 = m1 - m3;
+                        float q1_2 = m2 - m4;
+                        float q1_3 = m3 - m5;
+                        float q1_4 = m4 - m6;
+                        float q2_0 = q1_0 - q1_2;
+                        float q2_1 = q1_1 - q1_3;
+                        float q2_2 = q1_2 - q1_4;
+                        float per_mass2 = 1.0 / max(q2_0, 1e-6);
+                        float mean2 = clamp(q2_1 * per_mass2, -1.0, 1.0);
+                        float most2 = max(1.0 - mean2 * mean2, 1e-6);
+                        float spread2 = sqrt(clamp((q2_2 * per_mass2 - mean2 * mean2) / most2, 0.0, 1.0));
+                        float noise_mean2 = e1 * reach * reach * reach * reach * per_mass2;
+                        float trust_mean2 = 1.0 / (1.0 + noise_mean2 * noise_mean2);
+                        float sure_mean2 = mean2 * trust_mean2;
+                        float noise_spread2 = e1 * reach * reach * reach * reach * reach * per_mass2;
+                        float trust_spread2 = 1.0 / (1.0 + noise_spread2 * noise_spread2);
+                        float sure_spread2 = 0.5 + (spread2 - 0.5) * trust_spread2;
+                        float features[9] = { x, count, log(others + 0.05f), mean0, spread0, mean1, spread1, sure_mean2, sure_spread2 };
+                        front = others * nmt_share(features);
+                    }
+                }
+            }
+        }
+    }
+    return min(exp(-front), 1.0);
+}
+
+// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in [0, 1].
+// Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a display step of 1/256.
+static const float NMT_FAINT = 0.0625f;
+// Fragments that are hidden weigh no more than this, all of a pixel together: answered like the farthest, they change no channel by more than twice as
+// much against exact answers of theirs, where the weights of the pixel (opacity times answer, what pass 2 adds up) sum to a half or more. Exact answers
+// sum to 0.99 where one looks; a network's do not have to.
+static const float NMT_HIDDEN = 0.00095f;
+
+// Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel lets too much light through.
+float nmt_first_hidden_depth(float b0, float b1, float b2) {
+    float excess = b0 - 5.0f;
+    float deviation = sqrt(5.0f * max(b2 * b0 - b1 * b1, 0.0) / max(excess, 1e-6));
+    return (excess > 0.0 ? (b1 + deviation) / max(b0, 1e-30) : 3e38);
+}
+
+// The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments. Polynomials that are 0 or more in the pixel
+// and 1 or more from the fragment on bound the share that lies there, rounding included.
+float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, float b[6]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30f);
+    float c = 0.5 * (z_nearest + z_farthest);
+    float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    float per_b0 = 1.0 / max(others, 1e-30);
+    float m1 = (b[0] - own1) * per_b0;
+    float m2 = (b[1] - own2) * per_b0;
+    float m3 = (b[2] - own3) * per_b0;
+    float m4 = (b[3] - own4) * per_b0;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m1 = m1 - c;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m4 = m4 - c * m3;
+    float h2 = h1 * h1;
+    float h3 = h2 * h1;
+    float h4 = h2 * h2;
+    m1 = clamp(m1 * h1, -1.0, 1.0);
+    m2 = clamp(m2 * h2, -1.0, 1.0);
+    m3 = clamp(m3 * h3, -1.0, 1.0);
+    m4 = clamp(m4 * h4, -1.0, 1.0);
+    float reach = 1.0 + 2.0 * abs(c) * h1;
+    float unsure = (n + 16.0) * NMT_ROUNDING * b0 * per_b0;
+    float off = 2e-6f * h1;
+    float end = 1.0 + off;
+    float x = clamp((z - c) * h1, -1.0, 1.0) - off;
+    float ahead = x - m1;
+    float r1 = max(m1 - max(m2 - m1 * m1, 0.0) / max(ahead, 1e-30), -1e6);
+    float gap1 = x - r1;
+    float reach1 = reach + abs(r1);
+    float share1 = (m2 - 2.0 * r1 * m1 + r1 * r1 + unsure * reach1 * reach1) / max(gap1 * gap1, 1e-30);
+    float w1 = m1 - m3;
+    float below = w1 - x * (1.0 - m2);
+    float inner = (m2 - m4 - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
+    float inside = (inner >= -end ? inner : 3e38);
+    float r = (inside < x ? inside : max(r1, -1.0));
+    float gap = x - r;
+    float per_value = 1.0 / max((end + x) * gap * gap, 1e-30);
+    float gamma = 0.99999 * (1.0 - 1.0 / (2.0 * end * (end - r) * (end - r) * per_value)) / (end - x);
+    float lift = 1.0 + gamma * x;
+    float p0 = end * r * r;
+    float p1 = r * r - 2.0 * r * end;
+    float p2 = end - 2.0 * r;
+    float value = p0 * lift + (p1 * lift - gamma * p0) * m1 + (p2 * lift - gamma * p1) * m2 + (lift - gamma * p2) * m3 - gamma * m4;
+    float reach2 = reach + abs(r);
+    float lost = unsure * (end + reach) * reach2 * reach2 * (1.0 + gamma * (abs(x) + reach));
+    float share2 = (value + lost) * per_value;
+    float share = 1.00001 * min(share1, share2);
+    float below_1 = (share < 1.0 ? max(share, 0.0) : 1.0);
+    float behind = (ahead > 0.0 ? below_1 : 1.0);
+    float least_depth = others * (1.0 - behind) - (n + 4.0) * NMT_ROUNDING * b0 - 1e-5;
+    return exp(-least_depth) * min(others * behind + absorbance, n - 2.0);
+}
+
+// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels
+// of up to four fragments have forms of their own.
+float nmt_visible_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[6]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30f);
+    float front = -1.0;
+    if (n > 4.0) {
+        if (v != nearest) {
+            if (v != farthest) {
+                if (others > 1e-6 * b0) {
+                    if (b0 <= NMT_FAINT) {
+                        front = 0.5 * others;
+                    }
+                    if (NMT_HIDDEN > 0.0) {
+                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                            if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
+                                front = others;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    float answer = min(exp(-front), 1.0);
+    if (front < 0.0) {
+        answer = nmt_fragment_transmittance(v, z, absorbance, nearest, farthest, z_nearest, z_farthest, n, b0, b);
+    }
+    return answer;
+}
+
+// What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
+struct NmtSums {
+    // (b0, b1, b2, b3): blended by addition, cleared to 0.
+    float4 sums0;
+    // (b4, b5, b6, number of fragments): blended by addition, cleared to 0.
+    float4 sums1;
+    // (-v, v, 0, 0): blended by max, cleared to -3e38, so that it holds -nearest and farthest. Two channels, f32
+    // always.
+    float4 range;
+};
+
+// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and
+// the greatest v of the scene.
+NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
+    float absorbance = nmt_absorbance(alpha);
+    float b[6];
+    nmt_moments(nmt_moment_depth(v, v0, v1), absorbance, b);
+    NmtSums sums;
+    sums.sums0 = float4(absorbance, b[0], b[1], b[2]);
+    sums.sums1 = float4(b[3], b[4], b[5], 1.0);
+    sums.range = float4(-v, v, 0.0, 0.0);
+    return sums;
+}
+
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
+// (alpha * T * color, alpha * T).
+float nmt_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
+    float b[6] = { sums0.y, sums0.z, sums0.w, sums1.x, sums1.y, sums1.z };
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_fragment_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.w, sums0.x, b
+    );
+}
+
+// As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
+float nmt_visible_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
+    float b[6] = { sums0.y, sums0.z, sums0.w, sums1.x, sums1.y, sums1.z };
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_visible_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.w, sums0.x, b
+    );
+}
+
+// Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
+// shows through: result.rgb + result.a * background. As a blend state: source factor one, destination factor source
+// alpha.
+float4 nmt_resolve(float4 weighted, float4 sums0) {
+    float behind = exp(-sums0.x);
+    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
+    return float4(scale * weighted.xyz, behind);
+}
+
+#endif

@@ -1,0 +1,465 @@
+// Neural moment transparency: network 'small', 7-16-8-1, 248 multiply-adds.
+// Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
+//
+// Features, set 'recentred', in this order: x, count, ln_b0, mean, spread, inner_mean, inner_spread.
+// v is distance along the view direction and z = 2 ln(v/v0)/ln(v1/v0) - 1 moment depth, v0 and v1 the scene's least and greatest v;
+// pass 1 adds up b_k = sum of A z^k, counts fragments (n) and keeps the pixel's least and greatest v as f32.
+// A = min(-ln(1 - alpha), 10) is a fragment's absorbance; primed quantities leave out the fragment's own, b_k' = b_k - A z^k.
+// c and h are middle and half of the pixel's range of z; m_k = moments of the others in (z - c)/h, normalised by b_0'.
+// x = (z - c)/h, count = log2(n)/3 - 1, ln_b0 = ln(b_0' + 0.05);
+// mean = m_1, spread = (m_2 - m_1^2)/(1 - m_1^2); inner_ of (1 - x^2) times the measure: mean = (m_1 - m_3)/(1 - m_2),
+// spread = the square root of the same ratio of its own; inner2_ and inner3_ of (1 - x^2)^2 and (1 - x^2)^3, faded out where f32 leaves noise.
+// The answer is T = exp(-b_0' s), s the network's sigmoid: the share of the other absorbance that lies in front.
+// Not part of the network, and to be applied before it, in this order: nearest in its pixel (v compared bit for bit): T = 1;
+// b_0' <= 1e-6 b_0: T = 1; farthest: T = exp(-b_0'); three fragments: T = exp(-b_0' (1 - m_1)/2);
+// four fragments: the closed form in nmt_recentred.
+// So pixels of up to four fragments, and all that is nearest or farthest, never need the network.
+//
+// Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.593e-3, worst 0.995.
+
+#ifndef NMT_INCLUDED_SMALL
+#define NMT_INCLUDED_SMALL
+
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+#endif
+
+// Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
+float nmt_absorbance(float alpha) {
+    float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
+    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931)));
+}
+
+// ln(a / b), as accurate relative to itself where a is near b as elsewhere.
+float nmt_log_ratio(float a, float b) {
+    float s = (a - b) / (a + b);
+    float q = s * s;
+    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))) : log(a / b));
+}
+
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
+// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+float nmt_moment_depth(float v, float v0, float v1) {
+    float warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
+    return (v1 > v0 ? clamp(warped, -1.0, 1.0) : 0.0);
+}
+
+// Pass 1: what a fragment at moment depth z adds to b1..b4; to b0 it adds its absorbance, to n it adds 1.
+float[4] nmt_moments(float z, float absorbance) {
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    return float[4](own1, own2, own3, own4);
+}
+
+// Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.
+const float NMT_ROUNDING = 1.1920929e-7;
+
+// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,
+// their moment depths, number of fragments n, total absorbance b0 and moments b1..b4. The result holds the 7 features, then T where it is
+// known without the network, else -1. No branch is taken.
+float[8] nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30);
+    float c = 0.5 * (z_nearest + z_farthest);
+    float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    float per_b0 = 1.0 / max(others, 1e-30);
+    float m1 = (b[0] - own1) * per_b0;
+    float m2 = (b[1] - own2) * per_b0;
+    float m3 = (b[2] - own3) * per_b0;
+    float m4 = (b[3] - own4) * per_b0;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m1 = m1 - c;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m4 = m4 - c * m3;
+    float h2 = h1 * h1;
+    float h3 = h2 * h1;
+    float h4 = h2 * h2;
+    m1 = clamp(m1 * h1, -1.0, 1.0);
+    m2 = clamp(m2 * h2, -1.0, 1.0);
+    m3 = clamp(m3 * h3, -1.0, 1.0);
+    m4 = clamp(m4 * h4, -1.0, 1.0);
+    float along = (z - c) * h1;
+    float range = farthest - nearest;
+    float ratio = range / nearest;
+    float t = (v - nearest) / max(range, 1e-30);
+    float x = clamp((ratio < 0.01 ? 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0 : along), -1.0, 1.0);
+    float reach = 1.0 + 2.0 * abs(c) * h1;
+    float e1 = NMT_ROUNDING * reach * b0 * per_b0;
+    float per_n = 1.0 / n;
+    float noise1 = e1 * (0.12 * sqrt(n));
+    float deviation1 = 0.22 + 0.7 * per_n;
+    float trust1 = deviation1 * deviation1;
+    float mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
+    float front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
+    float further = reach * 0.87;
+    float noise2 = min(noise1 * further, 1e15);
+    float noise3 = noise1 * further * further;
+    float most0 = max(1.0 - mean0 * mean0, 1e-6);
+    float deviation2 = 0.12 + 0.5 * per_n;
+    float trust2 = deviation2 * deviation2 * most0;
+    float doubt2 = noise2 * noise2;
+    float spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3 + 1.8 * per_n) * doubt2) / (most0 * trust2 + doubt2);
+    float per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
+    float mean_part = 1.0 + spread0;
+    float deviation3 = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
+    float trust3 = deviation3 * deviation3;
+    float bounded3 = min(noise3 * per_mass1, 1e15);
+    float doubt3 = bounded3 * bounded3;
+    float expected3 = mean0 * (1.0 - spread0);
+    float raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
+    float mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
+    float noise = bounded3 + 9.536743e-7 * per_mass1;
+    float off = noise * deviation3 / (noise + deviation3);
+    float inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
+    float near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
+    float far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
+    float behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
+    float front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
+    float front = -1.0;
+    front = (n == 4.0 ? front4 : front);
+    front = (n == 3.0 ? front3 : front);
+    front = (v == farthest ? others : front);
+    front = (others > 1e-6 * b0 ? front : 0.0);
+    front = (v == nearest ? 0.0 : front);
+    float known = (front >= 0.0 ? min(exp(-front), 1.0) : -1.0);
+    float count = log(n) * 0.48089835 - 1.0;
+    float most1 = max(1.0 - mean1 * mean1, 1e-6);
+    float spread_part = mean_part + spread0;
+    float offset = mean1 * mean_part - expected3;
+    float square0 = spread0 * spread0;
+    float expected4 = clamp((0.94 + -3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0, 0.0, spread_part);
+    float deviation4 = (0.12 + 1.4 * per_n) * (spread0 + 0.02);
+    float trust4 = deviation4 * deviation4 * most1;
+    float bounded4 = min(noise3 * further * per_mass1, 1e15);
+    float doubt4 = bounded4 * bounded4;
+    float raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
+    float square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
+    float spread1 = sqrt(square1);
+    return float[8](x, count, log(others + 0.05), mean0, spread0, mean1, spread1, known);
+}
+
+const mat4 NMT_W1[8] = mat4[8](
+    mat4(vec4(0.5572419, 0.8873689, 0.025650654, -2.3207302), vec4(-0.34461814, -0.44891888, -0.39050588, -0.18091549), vec4(-0.071615376, -0.024140464, -0.008282083, 0.038272522), vec4(-3.7245471, 2.6387365, -2.2102082, -0.5306895)),
+    mat4(vec4(2.9037392, 4.164609, 1.6416957, -1.0860678), vec4(3.182191, -1.0674255, -0.9432166, 2.8805542), vec4(-3.5021276, 1.3302044, -0.5502461, 1.2838587), vec4(2.1899598, -1.1524864, 2.8668165, 0.26594585)),
+    mat4(vec4(-5.0277195, 3.556171, -4.748659, -3.4211285), vec4(-0.089546226, 0.9750353, 0.13666514, -0.24305318), vec4(0.11110483, -0.09587958, 0.028702937, 0.08554635), vec4(-1.3789594, -1.5830472, -0.08525755, -0.4679912)),
+    mat4(vec4(0.8829105, 1.4194763, -0.053129755, -4.384808), vec4(5.9241633, 0.9597082, 4.626354, -0.6152009), vec4(-0.9577396, -0.31151232, -1.3498255, -0.17014448), vec4(-1.2974775, 2.533871, 0.26404834, 1.322599)),
+    mat4(vec4(-2.8703783, 6.6934257, -0.7819008, 3.0343735), vec4(0.48690128, 0.11834759, 0.17926306, -0.20529807), vec4(-0.0747379, -0.10869953, 0.011314124, -0.018088961), vec4(-1.3296846, -3.0842803, 2.6905768, 2.3319657)),
+    mat4(vec4(-0.42825016, -0.66429555, -6.518144, -0.7735734), vec4(-1.6082613, 0.79219943, -3.6361427, -2.9449046), vec4(2.9222262, 1.6352106, 6.105769, -1.6681633), vec4(-2.4759755, -2.758409, -1.277408, 3.7719758)),
+    mat4(vec4(-3.9685419, -0.07865249, 3.7518868, -4.5860977), vec4(-0.24054211, -0.016617632, 0.43475664, 0.22254096), vec4(0.10049601, 0.0337685, -0.1098763, 0.017653327), vec4(1.6598035, -5.834993, -5.4151325, -0.41488847)),
+    mat4(vec4(-1.4044262, -5.671788, 1.827299, 0.9802938), vec4(0.16522916, 2.2399037, -0.2985399, 0.34238428), vec4(-5.7326884, 0.47215062, -1.3136361, -0.68593293), vec4(2.0557249, 1.7273939, -0.45318872, -4.756142))
+);
+const mat4 NMT_W2[8] = mat4[8](
+    mat4(vec4(-1.0931103, 0.44210717, -1.2169352, -0.008068636), vec4(-0.46324944, 0.43549836, 0.5542804, 1.1708078), vec4(-2.2489386, 0.16765693, 1.8471042, -1.4360818), vec4(0.7370069, 0.3038649, 0.3395028, 0.80514723)),
+    mat4(vec4(-3.49791, -0.6550794, 0.46273717, -1.0264783), vec4(-0.39480978, 0.22474408, 1.956778, -0.082365066), vec4(-0.57403874, 0.83014053, -0.7696553, 0.6588965), vec4(3.1965384, -1.0385951, -2.110678, 0.43452936)),
+    mat4(vec4(-1.2251607, 0.5895338, -0.8918203, 0.8026775), vec4(-0.41444397, 0.053060696, -6.2512116, -2.7577538), vec4(4.966727, -0.31968412, 0.58516496, 0.77836883), vec4(1.5743009, -0.9283775, -0.74404365, 0.6748018)),
+    mat4(vec4(2.7018049, 2.1556873, 0.6269551, 1.3626245), vec4(-1.4378589, 0.064023025, 1.8883291, 0.014146412), vec4(-3.531625, 0.04492224, 2.324661, 1.9930973), vec4(-25.788624, 2.5182197, -1.4758978, 3.1982157)),
+    mat4(vec4(-0.41391823, 1.1319875, -1.5793422, -2.3548183), vec4(-1.1366525, -1.5580677, 0.22625221, -2.727241), vec4(1.318036, -0.8864321, -0.44220364, 0.3394501), vec4(-1.5196753, -7.6356916, 1.4066124, -0.07263669)),
+    mat4(vec4(0.79437137, -1.5935353, -2.7841825, 1.2082449), vec4(1.3773485, -0.25885287, -2.0684526, -3.7339642), vec4(-0.3631151, -21.331264, 0.13827866, 0.43595257), vec4(-3.5297334, 0.29987663, -5.3779497, -0.21252474)),
+    mat4(vec4(-1.9185516, 1.1649779, 2.1195953, 2.3788228), vec4(-0.16068031, 1.6363701, 3.9007616, 4.429163), vec4(-6.5963273, 4.705528, 2.5016162, 3.4034655), vec4(-2.0963562, 2.1782613, 0.7483879, 3.5064597)),
+    mat4(vec4(0.659403, 2.378958, 0.81767404, -0.9107636), vec4(2.0063715, 0.6180353, 5.9041595, 0.08523572), vec4(-2.0180254, -0.19664863, -0.51828355, -0.41485465), vec4(-5.688983, 4.35494, -39.64846, 12.921714))
+);
+const vec4 NMT_B2[2] = vec4[2](
+    vec4(-1.4392625, -3.6934829, -1.2812184, 3.0139205),
+    vec4(4.0596824, -2.0969372, 1.9294189, -1.1730818)
+);
+const vec4 NMT_W3[2] = vec4[2](
+    vec4(-0.21454798, 0.23790133, 0.21061999, -0.41597816),
+    vec4(-0.20229746, 0.22367835, 0.15568821, -0.21407762)
+);
+const float NMT_B3 = -0.09972816;
+
+// Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
+float nmt_share(float f[7]) {
+    vec4 h0_0 = vec4(f[0], f[1], f[2], f[3]);
+    vec4 h0_1 = vec4(f[4], f[5], f[6], 1.0);
+    vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
+    vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
+    vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
+    vec4 h1_3 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1, vec4(0.0));
+    vec4 h2_0 = max(NMT_B2[0] + NMT_W2[0] * h1_0 + NMT_W2[1] * h1_1 + NMT_W2[2] * h1_2 + NMT_W2[3] * h1_3, vec4(0.0));
+    vec4 h2_1 = max(NMT_B2[1] + NMT_W2[4] * h1_0 + NMT_W2[5] * h1_1 + NMT_W2[6] * h1_2 + NMT_W2[7] * h1_3, vec4(0.0));
+    float logit = NMT_B3 + dot(NMT_W3[0], h2_0) + dot(NMT_W3[1], h2_1);
+    return 1.0 / (1.0 + exp(min(-logit, 80.0)));
+}
+
+// Transmittance in front of the fragment with features f, in [0, 1].
+float nmt_transmittance(float f[7]) {
+    float absorbance = max(exp(min(f[2], 40.0)) - 0.05, 0.0);
+    return exp(-min(absorbance * nmt_share(f), 80.0));
+}
+
+// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features
+// and the network, so that groups of threads in which all is known skip them.
+float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30);
+    float front = 0.0;
+    if (v != nearest) {
+        if (others > 1e-6 * b0) {
+            front = others;
+            if (v != farthest) {
+                float c = 0.5 * (z_nearest + z_farthest);
+                float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+                float own1 = absorbance * z;
+                float own2 = own1 * z;
+                float own3 = own2 * z;
+                float own4 = own3 * z;
+                float per_b0 = 1.0 / max(others, 1e-30);
+                float m1 = (b[0] - own1) * per_b0;
+                float m2 = (b[1] - own2) * per_b0;
+                float m3 = (b[2] - own3) * per_b0;
+                float m4 = (b[3] - own4) * per_b0;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m2 = m2 - c * m1;
+                m1 = m1 - c;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m2 = m2 - c * m1;
+                m4 = m4 - c * m3;
+                m3 = m3 - c * m2;
+                m4 = m4 - c * m3;
+                float h2 = h1 * h1;
+                float h3 = h2 * h1;
+                float h4 = h2 * h2;
+                m1 = clamp(m1 * h1, -1.0, 1.0);
+                m2 = clamp(m2 * h2, -1.0, 1.0);
+                m3 = clamp(m3 * h3, -1.0, 1.0);
+                m4 = clamp(m4 * h4, -1.0, 1.0);
+                float along = (z - c) * h1;
+                float range = farthest - nearest;
+                float ratio = range / nearest;
+                float t = (v - nearest) / max(range, 1e-30);
+                float x = clamp((ratio < 0.01 ? 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0 : along), -1.0, 1.0);
+                float reach = 1.0 + 2.0 * abs(c) * h1;
+                float e1 = NMT_ROUNDING * reach * b0 * per_b0;
+                float per_n = 1.0 / n;
+                float noise1 = e1 * (0.12 * sqrt(n));
+                float deviation1 = 0.22 + 0.7 * per_n;
+                float trust1 = deviation1 * deviation1;
+                float mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
+                float front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
+                front = front3;
+                if (n != 3.0) {
+                    float further = reach * 0.87;
+                    float noise2 = min(noise1 * further, 1e15);
+                    float noise3 = noise1 * further * further;
+                    float most0 = max(1.0 - mean0 * mean0, 1e-6);
+                    float deviation2 = 0.12 + 0.5 * per_n;
+                    float trust2 = deviation2 * deviation2 * most0;
+                    float doubt2 = noise2 * noise2;
+                    float spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3 + 1.8 * per_n) * doubt2) / (most0 * trust2 + doubt2);
+                    float per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
+                    float mean_part = 1.0 + spread0;
+                    float deviation3 = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
+                    float trust3 = deviation3 * deviation3;
+                    float bounded3 = min(noise3 * per_mass1, 1e15);
+                    float doubt3 = bounded3 * bounded3;
+                    float expected3 = mean0 * (1.0 - spread0);
+                    float raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
+                    float mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
+                    float noise = bounded3 + 9.536743e-7 * per_mass1;
+                    float off = noise * deviation3 / (noise + deviation3);
+                    float inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
+                    float near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
+                    float far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
+                    float behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
+                    float front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
+                    front = front4;
+                    if (n != 4.0) {
+                        float count = log(n) * 0.48089835 - 1.0;
+                        float most1 = max(1.0 - mean1 * mean1, 1e-6);
+                        float spread_part = mean_part + spread0;
+                        float offset = mean1 * mean_part - expected3;
+                        float square0 = spread0 * spread0;
+                        float expected4 = clamp((0.94 + -3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0, 0.0, spread_part);
+                        float deviation4 = (0.12 + 1.4 * per_n) * (spread0 + 0.02);
+                        float trust4 = deviation4 * deviation4 * most1;
+                        float bounded4 = min(noise3 * further * per_mass1, 1e15);
+                        float doubt4 = bounded4 * bounded4;
+                        float raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
+                        float square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
+                        float spread1 = sqrt(square1);
+                        front = others * nmt_share(float[7](x, count, log(others + 0.05), mean0, spread0, mean1, spread1));
+                    }
+                }
+            }
+        }
+    }
+    return min(exp(-front), 1.0);
+}
+
+// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in [0, 1].
+// Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a display step of 1/256.
+const float NMT_FAINT = 0.0625;
+// Fragments that are hidden weigh no more than this, all of a pixel together: answered like the farthest, they change no channel by more than twice as
+// much against exact answers of theirs, where the weights of the pixel (opacity times answer, what pass 2 adds up) sum to a half or more. Exact answers
+// sum to 0.99 where one looks; a network's do not have to.
+const float NMT_HIDDEN = 0.00095;
+
+// Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel lets too much light through.
+float nmt_first_hidden_depth(float b0, float b1, float b2) {
+    float excess = b0 - 5.0;
+    float deviation = sqrt(5.0 * max(b2 * b0 - b1 * b1, 0.0) / max(excess, 1e-6));
+    return (excess > 0.0 ? (b1 + deviation) / max(b0, 1e-30) : 3e38);
+}
+
+// The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments. Polynomials that are 0 or more in the pixel
+// and 1 or more from the fragment on bound the share that lies there, rounding included.
+float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30);
+    float c = 0.5 * (z_nearest + z_farthest);
+    float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+    float own1 = absorbance * z;
+    float own2 = own1 * z;
+    float own3 = own2 * z;
+    float own4 = own3 * z;
+    float per_b0 = 1.0 / max(others, 1e-30);
+    float m1 = (b[0] - own1) * per_b0;
+    float m2 = (b[1] - own2) * per_b0;
+    float m3 = (b[2] - own3) * per_b0;
+    float m4 = (b[3] - own4) * per_b0;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m1 = m1 - c;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m2 = m2 - c * m1;
+    m4 = m4 - c * m3;
+    m3 = m3 - c * m2;
+    m4 = m4 - c * m3;
+    float h2 = h1 * h1;
+    float h3 = h2 * h1;
+    float h4 = h2 * h2;
+    m1 = clamp(m1 * h1, -1.0, 1.0);
+    m2 = clamp(m2 * h2, -1.0, 1.0);
+    m3 = clamp(m3 * h3, -1.0, 1.0);
+    m4 = clamp(m4 * h4, -1.0, 1.0);
+    float reach = 1.0 + 2.0 * abs(c) * h1;
+    float unsure = (n + 16.0) * NMT_ROUNDING * b0 * per_b0;
+    float off = 2e-6 * h1;
+    float end = 1.0 + off;
+    float x = clamp((z - c) * h1, -1.0, 1.0) - off;
+    float ahead = x - m1;
+    float r1 = max(m1 - max(m2 - m1 * m1, 0.0) / max(ahead, 1e-30), -1e6);
+    float gap1 = x - r1;
+    float reach1 = reach + abs(r1);
+    float share1 = (m2 - 2.0 * r1 * m1 + r1 * r1 + unsure * reach1 * reach1) / max(gap1 * gap1, 1e-30);
+    float w1 = m1 - m3;
+    float below = w1 - x * (1.0 - m2);
+    float inner = (m2 - m4 - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
+    float inside = (inner >= -end ? inner : 3e38);
+    float r = (inside < x ? inside : max(r1, -1.0));
+    float gap = x - r;
+    float per_value = 1.0 / max((end + x) * gap * gap, 1e-30);
+    float gamma = 0.99999 * (1.0 - 1.0 / (2.0 * end * (end - r) * (end - r) * per_value)) / (end - x);
+    float lift = 1.0 + gamma * x;
+    float p0 = end * r * r;
+    float p1 = r * r - 2.0 * r * end;
+    float p2 = end - 2.0 * r;
+    float value = p0 * lift + (p1 * lift - gamma * p0) * m1 + (p2 * lift - gamma * p1) * m2 + (lift - gamma * p2) * m3 - gamma * m4;
+    float reach2 = reach + abs(r);
+    float lost = unsure * (end + reach) * reach2 * reach2 * (1.0 + gamma * (abs(x) + reach));
+    float share2 = (value + lost) * per_value;
+    float share = 1.00001 * min(share1, share2);
+    float below_1 = (share < 1.0 ? max(share, 0.0) : 1.0);
+    float behind = (ahead > 0.0 ? below_1 : 1.0);
+    float least_depth = others * (1.0 - behind) - (n + 4.0) * NMT_ROUNDING * b0 - 1e-5;
+    return exp(-least_depth) * min(others * behind + absorbance, n - 2.0);
+}
+
+// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels
+// of up to four fragments have forms of their own.
+float nmt_visible_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+    float others = clamp(b0 - absorbance, 0.0, 1e30);
+    float front = -1.0;
+    if (n > 4.0) {
+        if (v != nearest) {
+            if (v != farthest) {
+                if (others > 1e-6 * b0) {
+                    if (b0 <= NMT_FAINT) {
+                        front = 0.5 * others;
+                    }
+                    if (NMT_HIDDEN > 0.0) {
+                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                            if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
+                                front = others;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    float answer = min(exp(-front), 1.0);
+    if (front < 0.0) {
+        answer = nmt_fragment_transmittance(v, z, absorbance, nearest, farthest, z_nearest, z_farthest, n, b0, b);
+    }
+    return answer;
+}
+
+// What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
+struct NmtSums {
+    // (b0, b1, b2, b3): blended by addition, cleared to 0.
+    vec4 sums0;
+    // (b4, number of fragments, 0, 0): blended by addition, cleared to 0.
+    vec4 sums1;
+    // (-v, v, 0, 0): blended by max, cleared to -3e38, so that it holds -nearest and farthest. Two channels, f32
+    // always.
+    vec4 range;
+};
+
+// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and
+// the greatest v of the scene.
+NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
+    float absorbance = nmt_absorbance(alpha);
+    float b[4] = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
+}
+
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
+// (alpha * T * color, alpha * T).
+float nmt_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_fragment_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
+    );
+}
+
+// As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
+float nmt_visible_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
+    float nearest = -range.x;
+    float farthest = range.y;
+    return nmt_visible_transmittance(
+        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
+        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
+        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
+    );
+}
+
+// Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
+// shows through: result.rgb + result.a * background. As a blend state: source factor one, destination factor source
+// alpha.
+vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
+    float behind = exp(-sums0.x);
+    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
+    return vec4(scale * weighted.xyz, behind);
+}
+
+#endif

@@ -1,6 +1,0 @@
-// (1 - e^-b0)/(Σ a w) Σ a w C + e^-b0 C_bg, of weighted = (Σ a w C, Σ a w); the background alone where nothing was drawn.
-fn oit_composite(weighted: vec4<f32>, b0: f32, n: f32, background: vec3<f32>) -> vec3<f32> {
-    let behind = exp(-b0);
-    let scale = select(0.0, (1.0 - behind) / max(weighted.a, 1e-37), weighted.a > 0.0);
-    return scale * weighted.rgb + behind * background;
-}

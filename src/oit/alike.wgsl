@@ -1,0 +1,4 @@
+
+fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
+    return 1.0;
+}

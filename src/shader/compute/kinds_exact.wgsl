@@ -1,0 +1,2 @@
+let faint = false;
+    let kind = 0u;

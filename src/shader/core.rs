@@ -1,0 +1,54 @@
+//! Text of the passes of methods that keep a core.
+
+use crate::export::core::{CoreLanguage, codes, stride, weigh, weigh_by_network};
+use crate::features::core::CoreSet;
+
+/// Prelude and method of a core whose tail is shared out by a network, of which this is the export, or where there is
+/// none by a beta law.
+pub(super) fn module(set: CoreSet, network: &str) -> String {
+    let weigh = match network {
+        "" => weigh(set, CoreLanguage::Wgsl),
+        _ => weigh_by_network(set, CoreLanguage::Wgsl),
+    };
+    let vectors = stride(set) / 4;
+    let listed = |items: Vec<String>| items.join(", ");
+    let lanes = ["x", "y", "z", "w"];
+    let added = listed((0..set.moments).map(|k| format!("moments.{}", lanes[k])).collect());
+    let slots = listed((0..vectors).map(|i| format!("p.core[{i}]")).collect());
+    let sum = |k: usize| match k < set.moments {
+        true => format!("p.sums[{}]", k + 1),
+        false => "0.0".to_owned(),
+    };
+    let moments = listed((0..4).map(sum).collect());
+    let prelude = include_str!("core/prelude.wgsl")
+        .replace("OIT_PIXEL_MOMENTS", &format!("vec4<f32>({moments})"))
+        .replace("OIT_MOMENTS", &added)
+        .replace("OIT_SLOTS", &slots);
+    format!(
+        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}",
+        set.moments + 2,
+        codes(set, CoreLanguage::Wgsl),
+        weigh,
+        include_str!("absorbance.wgsl"),
+    )
+}
+
+/// How a thread that goes over a pixel's list keeps its core: `oit_insert`.
+pub(super) fn list(set: CoreSet) -> String {
+    let heavy = (2..set.slots()).map(|slot| {
+        format!(
+            "let kept{slot} = (*core)[{slot}]; (*core)[{slot}] = max(kept{slot}, code); code = min(kept{slot}, code);"
+        )
+    });
+    include_str!("core/list.wgsl").replace("OIT_HEAVY", &heavy.collect::<Vec<_>>().join("\n    "))
+}
+
+/// The core of a pixel as the last member of `OitPixel`, from a buffer of vectors; nothing where the method keeps none.
+pub(super) fn member(set: Option<CoreSet>) -> String {
+    let Some(set) = set else { return String::new() };
+    let vectors = stride(set) / 4;
+    let items: Vec<String> = (0..vectors)
+        .map(|i| format!("oit_core[pixel * OIT_CORE + {i}u]"))
+        .collect();
+    format!(", array<vec4<u32>, OIT_CORE>({})", items.join(", "))
+}
