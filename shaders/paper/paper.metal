@@ -47,7 +47,7 @@ constant float NMT_B3 = -0.06779878;
 float nmt_expm1(
     float x
 ) {
-    return x * (1.0 + (x * (0.5 + (x * (0.16666667 + (x * (0.041666668 + (x * (0.008333334 + (x * (0.0013888889 + (x * (0.0001984127 + (x * (0.000024801588 + (x * 0.0000027557319))))))))))))))));
+    return x * (1.0 + (x * (0.5 + (x * (0.16666667 + (x * (0.041666668 + (x * (0.008333334 + (x * (0.0013888889 + (x * (0.0001984127 + (x * (0.000024801588 + (x * (0.0000027557319 + (x * 0.0000002755732))))))))))))))))));
 }
 
 float nmt_absorbance(
@@ -62,8 +62,11 @@ metal::float4 nmt_moments(
     float absorbance
 ) {
     float z = (2.0 * w) - 1.0;
-    float zz = z * z;
-    return absorbance * metal::float4(z, zz, zz * z, zz * zz);
+    float b1 = absorbance * z;
+    float b2 = b1 * z;
+    float b3 = b2 * z;
+    float b4 = b3 * z;
+    return metal::float4(b1, b2, b3, b4);
 }
 
 type_2 nmt_features(
@@ -74,9 +77,9 @@ type_2 nmt_features(
     float b0,
     metal::float4 b1234
 ) {
-    float _e7 = nmt_expm1(w_max - w_min);
-    float _e9 = nmt_expm1(w_1 - w_min);
-    float d = (w_max > w_min) ? (_e9 / metal::max(_e7, 0.000000000000000000000000000001)) : 0.0;
+    float _e7 = nmt_expm1(w_1 - w_min);
+    float _e9 = nmt_expm1(w_max - w_min);
+    float d = (w_max > w_min) ? (_e7 / metal::max(_e9, 0.000000000000000000000000000001)) : 0.0;
     return type_2 {{d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w}};
 }
 

@@ -21,126 +21,136 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 0.000045399931)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
 fn nmt_log_ratio(a: f32, b: f32) -> f32 {
     let s = (a - b) / (a + b);
     let q = s * s;
-    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))), abs(s) < 0.2);
+    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))),
+        abs(s) < 0.2);
 }
 
-// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
-// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the
+// pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel is too thin for its
+// moments.
 fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
-    let warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
-    return select(0.0, clamp(warped, -1.0, 1.0), v1 > v0);
-}
-
-// Pass 1: what a fragment at moment depth z adds to b1..b4; to b0 it adds its absorbance, to n it adds 1.
-fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 4> {
-    let own1 = absorbance * z;
-    let own2 = own1 * z;
-    let own3 = own2 * z;
-    let own4 = own3 * z;
-    return array<f32, 4>(own1, own2, own3, own4);
+    return select(0.0, clamp(2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0, -1.0, 1.0), v1 > v0);
 }
 
 // Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.
-const NMT_ROUNDING: f32 = 1.1920929e-7f;
+const NMT_ROUNDING: f32 = 1.1920929e-7;
 
-// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest and farthest view depth as f32,
-// their moment depths, number of fragments n, total absorbance b0 and moments b1..b4. The result holds the 7 features, then T where it is
-// known without the network, else -1. No branch is taken.
-fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> array<f32, 8> {
-    let others = clamp(b0 - absorbance, 0.0, 1e30f);
-    let c = 0.5 * (z_nearest + z_farthest);
-    let h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
-    let own1 = absorbance * z;
-    let own2 = own1 * z;
-    let own3 = own2 * z;
-    let own4 = own3 * z;
-    let per_b0 = 1.0 / max(others, 1e-30);
-    var m1 = (b[0] - own1) * per_b0;
-    var m2 = (b[1] - own2) * per_b0;
-    var m3 = (b[2] - own3) * per_b0;
-    var m4 = (b[3] - own4) * per_b0;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m2 = m2 - c * m1;
-    m1 = m1 - c;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m2 = m2 - c * m1;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m4 = m4 - c * m3;
-    let h2 = h1 * h1;
-    let h3 = h2 * h1;
-    let h4 = h2 * h2;
-    m1 = clamp(m1 * h1, -1.0, 1.0);
-    m2 = clamp(m2 * h2, -1.0, 1.0);
-    m3 = clamp(m3 * h3, -1.0, 1.0);
-    m4 = clamp(m4 * h4, -1.0, 1.0);
-    let along = (z - c) * h1;
+// Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
+fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 4> {
+    let moment1 = absorbance * z;
+    let moment2 = moment1 * z;
+    let moment3 = moment2 * z;
+    let moment4 = moment3 * z;
+    return array<f32, 4>(moment1, moment2, moment3, moment4);
+}
+
+// Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
+// absorbance 1 / per_b0.
+fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: array<f32, 4>) -> array<f32, 4> {
+    let own = nmt_moments(z, absorbance);
+    let m1 = (b[0] - own[0]) * per_b0;
+    let m2 = (b[1] - own[1]) * per_b0;
+    let m3 = (b[2] - own[2]) * per_b0;
+    let m4 = (b[3] - own[3]) * per_b0;
+    // Moments of z - c, one factor at a time.
+    let m4_2 = m4 - c * m3;
+    let m3_2 = m3 - c * m2;
+    let m2_2 = m2 - c * m1;
+    let m1_2 = m1 - c;
+    let m4_3 = m4_2 - c * m3_2;
+    let m3_3 = m3_2 - c * m2_2;
+    let m2_3 = m2_2 - c * m1_2;
+    let m4_4 = m4_3 - c * m3_3;
+    let m3_4 = m3_3 - c * m2_3;
+    let m4_5 = m4_4 - c * m3_4;
+    let per_h2 = per_h * per_h;
+    let per_h3 = per_h2 * per_h;
+    let per_h4 = per_h2 * per_h2;
+    return array<f32, 4>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
+        1.0), clamp(m4_5 * per_h4, -1.0, 1.0));
+}
+
+// Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
+fn nmt_shrink_to_prior(value: f32, expected: f32, noise: f32, deviation: f32) -> f32 {
+    let bounded = min(noise, 1e15);
+    let trust = deviation * deviation;
+    return expected + (value - expected) * (trust / (trust + bounded * bounded));
+}
+
+// Place of view depth v in the range of a thin pixel, in [-1, 1], where view depth says more than moment depth.
+fn nmt_place_in_thin(v: f32, nearest: f32, farthest: f32) -> f32 {
     let range = farthest - nearest;
-    let ratio = range / nearest;
     let t = (v - nearest) / max(range, 1e-30);
-    let x = clamp(select(along, 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0, ratio < 0.01f), -1.0, 1.0);
-    let reach = 1.0 + 2.0 * abs(c) * h1;
-    let e1 = NMT_ROUNDING * reach * b0 * per_b0;
+    let x = t * (1.0 + 0.5 * (range / nearest) * (1.0 - t));
+    return clamp(x + x - 1.0, -1.0, 1.0);
+}
+
+// Share of the others' absorbance in front of place x in a pixel of four: atoms at -1, u and 1 have this mean and
+// spread. Within the transition width of u, in front and behind go over into one another.
+fn nmt_share_of_four(x: f32, mean: f32, spread: f32, u: f32, transition_width: f32) -> f32 {
+    let inner = (1.0 - spread) * (1.0 - mean * mean);
+    let near_end = clamp(0.5 * (1.0 - mean - inner / max(1.0 + u, 1e-6)), 0.0, 1.0);
+    let far_end = clamp(0.5 * (1.0 + mean - inner / max(1.0 - u, 1e-6)), 0.0, 1.0);
+    let behind = clamp(0.5 + 0.5 * (x - u) / transition_width, 0.0, 1.0);
+    return clamp(near_end + behind * (1.0 - far_end - near_end), 0.0, 1.0);
+}
+
+// Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest
+// and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b4.
+// The result holds the 7 features, then T where it is known without the network, else -1. No branch is taken.
+fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32,
+    n: f32, b0: f32, b: array<f32, 4>) -> array<f32, 8> {
+    let c = 0.5 * (z_nearest + z_farthest);
+    let others = clamp(b0 - absorbance, 0.0, 1e30);
+    let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
+    let per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+    let m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+    let noise_growth = 1.0 + 2.0 * abs(c) * per_h;
+    let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
+    let noise1 = moment_noise * (0.12 * sqrt(n));
     let per_n = 1.0 / n;
-    let noise1 = e1 * (0.12f * sqrt(n));
-    let deviation1 = 0.22f + 0.7f * per_n;
-    let trust1 = deviation1 * deviation1;
-    let mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
-    let front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
-    let further = reach * 0.87f;
-    let noise2 = min(noise1 * further, 1e15);
-    let noise3 = noise1 * further * further;
+    let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), (farthest - nearest)
+        / nearest < 0.01);
+    let further = noise_growth * 0.87;
+    let noise2 = noise1 * further;
+    let noise3 = noise2 * further;
     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-    let deviation2 = 0.12f + 0.5f * per_n;
-    let trust2 = deviation2 * deviation2 * most0;
-    let doubt2 = noise2 * noise2;
-    let spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3f + 1.8f * per_n) * doubt2) / (most0 * trust2 + doubt2);
-    let per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
-    let mean_part = 1.0 + spread0;
-    let deviation3 = (0.17f + 3.1f * per_n) * (spread0 + 0.02);
-    let trust3 = deviation3 * deviation3;
-    let bounded3 = min(noise3 * per_mass1, 1e15);
-    let doubt3 = bounded3 * bounded3;
-    let expected3 = mean0 * (1.0 - spread0);
-    let raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
-    let mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
-    let noise = bounded3 + 9.536743e-7f * per_mass1;
-    let off = noise * deviation3 / (noise + deviation3);
-    let inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
-    let near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
-    let far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
-    let behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
-    let front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
+    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+    let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5 * per_n);
+    // The same of (1 - x^2) times the measure, which does not hold the ends.
+    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
+    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+    let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
+    let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
+    let noise = noise3 * per_mass1;
+    let all_noise = noise + 9.536743e-7 * per_mass1;
+    let mean1 = nmt_shrink_to_prior(raw_mean1, expected_mean1, noise, deviation);
+    let transition_width = all_noise * deviation / (all_noise + deviation);
+    // Optical depth in front where it is known: the exact rules, then the closed forms of three and four.
     var front = -1.0;
-    front = select(front, front4, n == 4.0);
-    front = select(front, front3, n == 3.0);
+    front = select(front, others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width), n == 4.0);
+    front = select(front, others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0), n == 3.0);
     front = select(front, others, v == farthest);
     front = select(0.0, front, others > 1e-6 * b0);
     front = select(front, 0.0, v == nearest);
     let known = select(-1.0, min(exp(-front), 1.0), front >= 0.0);
-    let count = log(n) * 0.48089835f - 1.0;
     let most1 = max(1.0 - mean1 * mean1, 1e-6);
-    let spread_part = mean_part + spread0;
-    let offset = mean1 * mean_part - expected3;
+    let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+    let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
     let square0 = spread0 * spread0;
-    let expected4 = clamp((0.94f + -3.8f * per_n + 4.0f * square0 * square0 - 1.2f * offset * offset) * spread0, 0.0, spread_part);
-    let deviation4 = (0.12f + 1.4f * per_n) * (spread0 + 0.02);
-    let trust4 = deviation4 * deviation4 * most1;
-    let bounded4 = min(noise3 * further * per_mass1, 1e15);
-    let doubt4 = bounded4 * bounded4;
-    let raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
-    let square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
-    let spread1 = sqrt(square1);
-    return array<f32, 8>(x, count, log(others + 0.05f), mean0, spread0, mean1, spread1, known);
+    let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0
+        / (1.0 + spread0 + spread0), 0.0, 1.0);
+    let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further * per_mass1 / most1,
+        (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
+    return array<f32, 8>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0, mean1, spread1, known);
 }
 
 const NMT_W1 = array<mat4x4<f32>, 8>(
@@ -193,98 +203,57 @@ fn nmt_transmittance(f: array<f32, 7>) -> f32 {
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 
-// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features
-// and the network, so that groups of threads in which all is known skip them.
-fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
-    let others = clamp(b0 - absorbance, 0.0, 1e30f);
+// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
+// network branches around the features and the network, so that groups of threads in which all is known skip them.
+fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
+    z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
+    let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = 0.0;
     if (v != nearest) {
         if (others > 1e-6 * b0) {
             front = others;
             if (v != farthest) {
                 let c = 0.5 * (z_nearest + z_farthest);
-                let h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
-                let own1 = absorbance * z;
-                let own2 = own1 * z;
-                let own3 = own2 * z;
-                let own4 = own3 * z;
-                let per_b0 = 1.0 / max(others, 1e-30);
-                var m1 = (b[0] - own1) * per_b0;
-                var m2 = (b[1] - own2) * per_b0;
-                var m3 = (b[2] - own3) * per_b0;
-                var m4 = (b[3] - own4) * per_b0;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m2 = m2 - c * m1;
-                m1 = m1 - c;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m2 = m2 - c * m1;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m4 = m4 - c * m3;
-                let h2 = h1 * h1;
-                let h3 = h2 * h1;
-                let h4 = h2 * h2;
-                m1 = clamp(m1 * h1, -1.0, 1.0);
-                m2 = clamp(m2 * h2, -1.0, 1.0);
-                m3 = clamp(m3 * h3, -1.0, 1.0);
-                m4 = clamp(m4 * h4, -1.0, 1.0);
-                let along = (z - c) * h1;
-                let range = farthest - nearest;
-                let ratio = range / nearest;
-                let t = (v - nearest) / max(range, 1e-30);
-                let x = clamp(select(along, 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0, ratio < 0.01f), -1.0, 1.0);
-                let reach = 1.0 + 2.0 * abs(c) * h1;
-                let e1 = NMT_ROUNDING * reach * b0 * per_b0;
+                let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
+                let per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+                let m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+                let noise_growth = 1.0 + 2.0 * abs(c) * per_h;
+                let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
+                let noise1 = moment_noise * (0.12 * sqrt(n));
                 let per_n = 1.0 / n;
-                let noise1 = e1 * (0.12f * sqrt(n));
-                let deviation1 = 0.22f + 0.7f * per_n;
-                let trust1 = deviation1 * deviation1;
-                let mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
-                let front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
-                front = front3;
+                let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
-                    let further = reach * 0.87f;
-                    let noise2 = min(noise1 * further, 1e15);
-                    let noise3 = noise1 * further * further;
+                    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest),
+                        (farthest - nearest) / nearest < 0.01);
+                    let further = noise_growth * 0.87;
+                    let noise2 = noise1 * further;
+                    let noise3 = noise2 * further;
                     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    let deviation2 = 0.12f + 0.5f * per_n;
-                    let trust2 = deviation2 * deviation2 * most0;
-                    let doubt2 = noise2 * noise2;
-                    let spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3f + 1.8f * per_n) * doubt2) / (most0 * trust2 + doubt2);
-                    let per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
-                    let mean_part = 1.0 + spread0;
-                    let deviation3 = (0.17f + 3.1f * per_n) * (spread0 + 0.02);
-                    let trust3 = deviation3 * deviation3;
-                    let bounded3 = min(noise3 * per_mass1, 1e15);
-                    let doubt3 = bounded3 * bounded3;
-                    let expected3 = mean0 * (1.0 - spread0);
-                    let raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
-                    let mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
-                    let noise = bounded3 + 9.536743e-7f * per_mass1;
-                    let off = noise * deviation3 / (noise + deviation3);
-                    let inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
-                    let near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
-                    let far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
-                    let behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
-                    let front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
-                    front = front4;
+                    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
+                        * per_n);
+                    // The same of (1 - x^2) times the measure, which does not hold the ends.
+                    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
+                    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
+                    let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
+                    let noise = noise3 * per_mass1;
+                    let all_noise = noise + 9.536743e-7 * per_mass1;
+                    let mean1 = nmt_shrink_to_prior(raw_mean1, expected_mean1, noise, deviation);
+                    let transition_width = all_noise * deviation / (all_noise + deviation);
+                    front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
-                        let count = log(n) * 0.48089835f - 1.0;
                         let most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        let spread_part = mean_part + spread0;
-                        let offset = mean1 * mean_part - expected3;
+                        let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         let square0 = spread0 * spread0;
-                        let expected4 = clamp((0.94f + -3.8f * per_n + 4.0f * square0 * square0 - 1.2f * offset * offset) * spread0, 0.0, spread_part);
-                        let deviation4 = (0.12f + 1.4f * per_n) * (spread0 + 0.02);
-                        let trust4 = deviation4 * deviation4 * most1;
-                        let bounded4 = min(noise3 * further * per_mass1, 1e15);
-                        let doubt4 = bounded4 * bounded4;
-                        let raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
-                        let square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
-                        let spread1 = sqrt(square1);
-                        front = others * nmt_share(array<f32, 7>(x, count, log(others + 0.05f), mean0, spread0, mean1, spread1));
+                        let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
+                            * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
+                        let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
+                            * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
+                        front = others * nmt_share(array<f32, 7>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
+                            mean0, spread0, mean1, spread1));
                     }
                 }
             }
@@ -293,90 +262,80 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
     return min(exp(-front), 1.0);
 }
 
-// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in [0, 1].
-// Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a display step of 1/256.
-const NMT_FAINT: f32 = 0.0625f;
-// Fragments that are hidden weigh no more than this, all of a pixel together: answered like the farthest, they change no channel by more than twice as
-// much against exact answers of theirs, where the weights of the pixel (opacity times answer, what pass 2 adds up) sum to a half or more. Exact answers
-// sum to 0.99 where one looks; a network's do not have to.
-const NMT_HIDDEN: f32 = 0.00095f;
+// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in
+// [0, 1].
 
-// Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel lets too much light through.
+// Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than half a display step
+// of 1/256.
+const NMT_FAINT: f32 = 0.0625;
+
+// Fragments that are hidden weigh no more than this, all of a pixel together: answered like the farthest, they change
+// no channel by more than twice as much against exact answers of theirs, where the weights of the pixel (opacity times
+// answer, what pass 2 adds up) sum to a half or more. Exact answers sum to 0.99 where one looks; a network's do not
+// have to.
+const NMT_HIDDEN: f32 = 0.00095;
+
+// Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel lets too
+// much light through.
 fn nmt_first_hidden_depth(b0: f32, b1: f32, b2: f32) -> f32 {
-    let excess = b0 - 5.0f;
-    let deviation = sqrt(5.0f * max(b2 * b0 - b1 * b1, 0.0) / max(excess, 1e-6));
+    let excess = b0 - 5.0;
+    let deviation = sqrt(max(b2 * b0 - b1 * b1, 0.0) * 5.0 / max(excess, 1e-6));
     return select(3e38, (b1 + deviation) / max(b0, 1e-30), excess > 0.0);
 }
 
-// The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments. Polynomials that are 0 or more in the pixel
-// and 1 or more from the fragment on bound the share that lies there, rounding included.
-fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
-    let others = clamp(b0 - absorbance, 0.0, 1e30f);
+// The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments.
+// Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies there,
+// rounding included.
+fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32,
+    4>) -> f32 {
     let c = 0.5 * (z_nearest + z_farthest);
-    let h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8f);
-    let own1 = absorbance * z;
-    let own2 = own1 * z;
-    let own3 = own2 * z;
-    let own4 = own3 * z;
-    let per_b0 = 1.0 / max(others, 1e-30);
-    var m1 = (b[0] - own1) * per_b0;
-    var m2 = (b[1] - own2) * per_b0;
-    var m3 = (b[2] - own3) * per_b0;
-    var m4 = (b[3] - own4) * per_b0;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m2 = m2 - c * m1;
-    m1 = m1 - c;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m2 = m2 - c * m1;
-    m4 = m4 - c * m3;
-    m3 = m3 - c * m2;
-    m4 = m4 - c * m3;
-    let h2 = h1 * h1;
-    let h3 = h2 * h1;
-    let h4 = h2 * h2;
-    m1 = clamp(m1 * h1, -1.0, 1.0);
-    m2 = clamp(m2 * h2, -1.0, 1.0);
-    m3 = clamp(m3 * h3, -1.0, 1.0);
-    m4 = clamp(m4 * h4, -1.0, 1.0);
-    let reach = 1.0 + 2.0 * abs(c) * h1;
-    let unsure = (n + 16.0) * NMT_ROUNDING * b0 * per_b0;
-    let off = 2e-6f * h1;
+    let others = clamp(b0 - absorbance, 0.0, 1e30);
+    let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
+    let per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+    let m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+    let noise_growth = 1.0 + 2.0 * abs(c) * per_h;
+    // What rounding may have done to moments and places.
+    let unsure = (n + 16.0) * NMT_ROUNDING * b0 / max(others, 1e-30);
+    let off = 2e-6 * per_h;
     let end = 1.0 + off;
-    let x = clamp((z - c) * h1, -1.0, 1.0) - off;
-    let ahead = x - m1;
-    let r1 = max(m1 - max(m2 - m1 * m1, 0.0) / max(ahead, 1e-30), -1e6);
+    let x = clamp((z - c) * per_h, -1.0, 1.0) - off;
+    // Cantelli's inequality.
+    let ahead = x - m[0];
+    let r1 = max(m[0] - max(m[1] - m[0] * m[0], 0.0) / max(ahead, 1e-30), -1e6);
+    let growth1 = noise_growth + abs(r1);
     let gap1 = x - r1;
-    let reach1 = reach + abs(r1);
-    let share1 = (m2 - 2.0 * r1 * m1 + r1 * r1 + unsure * reach1 * reach1) / max(gap1 * gap1, 1e-30);
-    let w1 = m1 - m3;
-    let below = w1 - x * (1.0 - m2);
-    let inner = (m2 - m4 - x * w1) / select(below, 1e-30, abs(below) < 1e-30);
-    let inside = select(3e38, inner, inner >= -end);
-    let r = select(max(r1, -1.0), inside, inside < x);
+    let share1 = (m[1] - 2.0 * r1 * m[0] + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
+    // The quartic.
+    let w1 = m[0] - m[2];
+    let below = w1 - x * (1.0 - m[1]);
+    let inner = (m[1] - m[3] - x * w1) / select(below, 1e-30, abs(below) < 1e-30);
+    let outer = max(r1, -1.0);
+    let inside = select(outer, inner, inner >= -end);
+    let r = select(outer, inside, inside < x);
     let gap = x - r;
-    let per_value = 1.0 / max((end + x) * gap * gap, 1e-30);
-    let gamma = 0.99999 * (1.0 - 1.0 / (2.0 * end * (end - r) * (end - r) * per_value)) / (end - x);
-    let lift = 1.0 + gamma * x;
+    let per_value = 1.0 / max((end + x) * (gap * gap), 1e-30);
+    let end_gap = end - r;
+    let gamma = 0.99999 * (1.0 - 1.0 / (2.0 * end * (end_gap * end_gap) * per_value)) / (end - x);
     let p0 = end * r * r;
     let p1 = r * r - 2.0 * r * end;
     let p2 = end - 2.0 * r;
-    let value = p0 * lift + (p1 * lift - gamma * p0) * m1 + (p2 * lift - gamma * p1) * m2 + (lift - gamma * p2) * m3 - gamma * m4;
-    let reach2 = reach + abs(r);
-    let lost = unsure * (end + reach) * reach2 * reach2 * (1.0 + gamma * (abs(x) + reach));
+    let lift = 1.0 + gamma * x;
+    let value = p0 * lift + (p1 * lift - gamma * p0) * m[0] + (p2 * lift - gamma * p1) * m[1] + (lift - gamma * p2)
+        * m[2] - gamma * m[3];
+    let growth2 = noise_growth + abs(r);
+    let lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     let share2 = (value + lost) * per_value;
-    let share = 1.00001 * min(share1, share2);
-    let below_1 = select(1.0, max(share, 0.0), share < 1.0);
-    let behind = select(1.0, below_1, ahead > 0.0);
-    let least_depth = others * (1.0 - behind) - (n + 4.0) * NMT_ROUNDING * b0 - 1e-5;
+    let share = min(share1, share2) * 1.00001;
+    let behind = select(1.0, select(1.0, max(share, 0.0), share < 1.0), ahead > 0.0);
+    let least_depth = others * (1.0 - behind) - ((n + 4.0) * NMT_ROUNDING * b0 + 1e-5);
     return exp(-least_depth) * min(others * behind + absorbance, n - 2.0);
 }
 
-// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint pixels and hidden fragments. Pixels
-// of up to four fragments have forms of their own.
-fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
-    let others = clamp(b0 - absorbance, 0.0, 1e30f);
+// Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint
+// pixels and hidden fragments. Pixels of up to four fragments have forms of their own.
+fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
+    z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
+    let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = -1.0;
     if (n > 4.0) {
         if (v != nearest) {

@@ -4,7 +4,7 @@ import fs from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const from = here("../shaders/");
+const from = here("../../shaders/");
 fs.rmSync(here("shaders"), { recursive: true, force: true });
 fs.cpSync(from, here("shaders"), { recursive: true });
 

@@ -20,7 +20,7 @@ float total(ivec2 at) {
 function network(name) {
   return {
     rounds: true,
-    functions: [`web/shaders/${name}/${name}.glsl`],
+    functions: [`shaders/${name}/${name}.glsl`],
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
     ends: true,

@@ -40,7 +40,7 @@ function network(name, title, note) {
     note,
     kind: "blended",
     bits: 32 * 8,
-    functions: [`web/shaders/${name}/${name}.wgsl`],
+    functions: [`shaders/${name}/${name}.wgsl`],
     targets: [add("rgba32float"), add("rg32float"), ENDS],
     rounds: true,
     // Sums as f16 where f32 cannot be blended into; the ends are then two depth buffers.

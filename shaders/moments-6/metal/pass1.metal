@@ -61,21 +61,20 @@ float nmt_moment_depth(
 ) {
     float _e3 = nmt_log_ratio(v, v0);
     float _e6 = nmt_log_ratio(v1, v0);
-    float warped = ((2.0 * _e3) / metal::max(_e6, 0.000000000000000000000000000001)) - 1.0;
-    return (v1 > v0) ? metal::clamp(warped, -1.0, 1.0) : 0.0;
+    return (v1 > v0) ? metal::clamp(((2.0 * _e3) / metal::max(_e6, 0.000000000000000000000000000001)) - 1.0, -1.0, 1.0) : 0.0;
 }
 
 type_1 nmt_moments(
     float z,
     float absorbance
 ) {
-    float own1 = absorbance * z;
-    float own2 = own1 * z;
-    float own3 = own2 * z;
-    float own4 = own3 * z;
-    float own5 = own4 * z;
-    float own6 = own5 * z;
-    return type_1 {{own1, own2, own3, own4, own5, own6}};
+    float moment1 = absorbance * z;
+    float moment2 = moment1 * z;
+    float moment3 = moment2 * z;
+    float moment4 = moment3 * z;
+    float moment5 = moment4 * z;
+    float moment6 = moment5 * z;
+    return type_1 {{moment1, moment2, moment3, moment4, moment5, moment6}};
 }
 
 NmtSums nmt_pass1(

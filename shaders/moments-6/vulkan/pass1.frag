@@ -14,32 +14,33 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 float nmt_absorbance(float alpha) {
     float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931)));
+    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 4.539993e-5)));
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
 float nmt_log_ratio(float a, float b) {
     float s = (a - b) / (a + b);
     float q = s * s;
-    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))) : log(a / b));
+    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))
+        : log(a / b));
 }
 
-// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
-// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the
+// pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel is too thin for its
+// moments.
 float nmt_moment_depth(float v, float v0, float v1) {
-    float warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
-    return (v1 > v0 ? clamp(warped, -1.0, 1.0) : 0.0);
+    return (v1 > v0 ? clamp(2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0, -1.0, 1.0) : 0.0);
 }
 
-// Pass 1: what a fragment at moment depth z adds to b1..b6; to b0 it adds its absorbance, to n it adds 1.
+// Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
 float[6] nmt_moments(float z, float absorbance) {
-    float own1 = absorbance * z;
-    float own2 = own1 * z;
-    float own3 = own2 * z;
-    float own4 = own3 * z;
-    float own5 = own4 * z;
-    float own6 = own5 * z;
-    return float[6](own1, own2, own3, own4, own5, own6);
+    float moment1 = absorbance * z;
+    float moment2 = moment1 * z;
+    float moment3 = moment2 * z;
+    float moment4 = moment3 * z;
+    float moment5 = moment4 * z;
+    float moment6 = moment5 * z;
+    return float[6](moment1, moment2, moment3, moment4, moment5, moment6);
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.

@@ -41,8 +41,11 @@ metal::float4 nmt_moments(
     float absorbance
 ) {
     float z = (2.0 * w) - 1.0;
-    float zz = z * z;
-    return absorbance * metal::float4(z, zz, zz * z, zz * zz);
+    float b1 = absorbance * z;
+    float b2 = b1 * z;
+    float b3 = b2 * z;
+    float b4 = b3 * z;
+    return metal::float4(b1, b2, b3, b4);
 }
 
 NmtSums nmt_pass1(

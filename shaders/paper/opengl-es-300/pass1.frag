@@ -16,14 +16,17 @@ precision highp int;
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 float nmt_absorbance(float alpha) {
     float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931));
+    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 4.539993e-5)));
 }
 
 // Pass 1: what a fragment at window depth w adds to b1..b4; to b0 it adds its absorbance.
 vec4 nmt_moments(float w, float absorbance) {
     float z = 2.0 * w - 1.0;
-    float zz = z * z;
-    return absorbance * vec4(z, zz, zz * z, zz * zz);
+    float b1 = absorbance * z;
+    float b2 = b1 * z;
+    float b3 = b2 * z;
+    float b4 = b3 * z;
+    return vec4(b1, b2, b3, b4);
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.

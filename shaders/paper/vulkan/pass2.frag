@@ -11,15 +11,14 @@
 
 // e^x - 1 for 0 <= x <= 1, without the cancellation of exp(x) - 1 near 0; relative error below 1e-7.
 float nmt_expm1(float x) {
-    return x * (1.0 + x * (0.5 + x * (0.16666667 + x * (0.041666668 + x * (0.008333334 + x * (0.0013888889
-        + x * (0.0001984127 + x * (0.000024801588 + x * 0.0000027557319))))))));
+    return x * (1.0 + x * (0.5 + x * (0.16666667 + x * (0.041666668 + x * (0.008333334 + x * (0.0013888889 + x
+        * (0.0001984127 + x * (2.4801588e-5 + x * (2.7557319e-6 + x * 2.755732e-7)))))))));
 }
 
-// Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window depth,
-// number of fragments, total absorbance b0 and moments b1..b4.
+// Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
+// depth, number of fragments, total absorbance b0 and moments b1..b4.
 float[7] nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
-    float range = nmt_expm1(w_max - w_min);
-    float d = w_max > w_min ? nmt_expm1(w - w_min) / max(range, 1e-30) : 0.0;
+    float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
     return float[7](d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w);
 }
 

@@ -11,14 +11,17 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 0.000045399931)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
 }
 
 // Pass 1: what a fragment at window depth w adds to b1..b4; to b0 it adds its absorbance.
 fn nmt_moments(w: f32, absorbance: f32) -> vec4<f32> {
     let z = 2.0 * w - 1.0;
-    let zz = z * z;
-    return absorbance * vec4<f32>(z, zz, zz * z, zz * zz);
+    let b1 = absorbance * z;
+    let b2 = b1 * z;
+    let b3 = b2 * z;
+    let b4 = b3 * z;
+    return vec4<f32>(b1, b2, b3, b4);
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.

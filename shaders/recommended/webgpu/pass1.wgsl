@@ -11,30 +11,31 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 0.000045399931)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
 fn nmt_log_ratio(a: f32, b: f32) -> f32 {
     let s = (a - b) / (a + b);
     let q = s * s;
-    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))), abs(s) < 0.2);
+    return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))),
+        abs(s) < 0.2);
 }
 
-// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
-// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the
+// pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel is too thin for its
+// moments.
 fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
-    let warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
-    return select(0.0, clamp(warped, -1.0, 1.0), v1 > v0);
+    return select(0.0, clamp(2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0, -1.0, 1.0), v1 > v0);
 }
 
-// Pass 1: what a fragment at moment depth z adds to b1..b4; to b0 it adds its absorbance, to n it adds 1.
+// Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
 fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 4> {
-    let own1 = absorbance * z;
-    let own2 = own1 * z;
-    let own3 = own2 * z;
-    let own4 = own3 * z;
-    return array<f32, 4>(own1, own2, own3, own4);
+    let moment1 = absorbance * z;
+    let moment2 = moment1 * z;
+    let moment3 = moment2 * z;
+    let moment4 = moment3 * z;
+    return array<f32, 4>(moment1, moment2, moment3, moment4);
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.

@@ -12,25 +12,86 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 float nmt_absorbance(float alpha) {
     float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931)));
+    return (alpha < 0.03 ? faint : -log(max(1.0 - alpha, 4.539993e-5)));
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
 float nmt_log_ratio(float a, float b) {
     float s = (a - b) / (a + b);
     float q = s * s;
-    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))) : log(a / b));
+    return (abs(s) < 0.2 ? (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111))))
+        : log(a / b));
 }
 
-// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the pixel's own nearest and farthest view
-// depth, these may be v0 and v1 in both passes: then no pixel is too thin for its moments.
+// Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the
+// pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel is too thin for its
+// moments.
 float nmt_moment_depth(float v, float v0, float v1) {
-    float warped = 2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0;
-    return (v1 > v0 ? clamp(warped, -1.0, 1.0) : 0.0);
+    return (v1 > v0 ? clamp(2.0 * nmt_log_ratio(v, v0) / max(nmt_log_ratio(v1, v0), 1e-30) - 1.0, -1.0, 1.0) : 0.0);
 }
 
 // Rounding of a stored moment, as a share of b0: of f32 sums 2^-23, of f16 sums 2^-10.
 const float NMT_ROUNDING = 1.1920929e-7;
+
+// Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
+float[4] nmt_moments(float z, float absorbance) {
+    float moment1 = absorbance * z;
+    float moment2 = moment1 * z;
+    float moment3 = moment2 * z;
+    float moment4 = moment3 * z;
+    return float[4](moment1, moment2, moment3, moment4);
+}
+
+// Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
+// absorbance 1 / per_b0.
+float[4] nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float b[4]) {
+    float own[4] = nmt_moments(z, absorbance);
+    float m1 = (b[0] - own[0]) * per_b0;
+    float m2 = (b[1] - own[1]) * per_b0;
+    float m3 = (b[2] - own[2]) * per_b0;
+    float m4 = (b[3] - own[3]) * per_b0;
+    // Moments of z - c, one factor at a time.
+    float m4_2 = m4 - c * m3;
+    float m3_2 = m3 - c * m2;
+    float m2_2 = m2 - c * m1;
+    float m1_2 = m1 - c;
+    float m4_3 = m4_2 - c * m3_2;
+    float m3_3 = m3_2 - c * m2_2;
+    float m2_3 = m2_2 - c * m1_2;
+    float m4_4 = m4_3 - c * m3_3;
+    float m3_4 = m3_3 - c * m2_3;
+    float m4_5 = m4_4 - c * m3_4;
+    float per_h2 = per_h * per_h;
+    float per_h3 = per_h2 * per_h;
+    float per_h4 = per_h2 * per_h2;
+    return float[4](clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
+        1.0), clamp(m4_5 * per_h4, -1.0, 1.0));
+}
+
+// Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
+float nmt_shrink_to_prior(float value, float expected, float noise, float deviation) {
+    float bounded = min(noise, 1e15);
+    float trust = deviation * deviation;
+    return expected + (value - expected) * (trust / (trust + bounded * bounded));
+}
+
+// Place of view depth v in the range of a thin pixel, in [-1, 1], where view depth says more than moment depth.
+float nmt_place_in_thin(float v, float nearest, float farthest) {
+    float range = farthest - nearest;
+    float t = (v - nearest) / max(range, 1e-30);
+    float x = t * (1.0 + 0.5 * (range / nearest) * (1.0 - t));
+    return clamp(x + x - 1.0, -1.0, 1.0);
+}
+
+// Share of the others' absorbance in front of place x in a pixel of four: atoms at -1, u and 1 have this mean and
+// spread. Within the transition width of u, in front and behind go over into one another.
+float nmt_share_of_four(float x, float mean, float spread, float u, float transition_width) {
+    float inner = (1.0 - spread) * (1.0 - mean * mean);
+    float near_end = clamp(0.5 * (1.0 - mean - inner / max(1.0 + u, 1e-6)), 0.0, 1.0);
+    float far_end = clamp(0.5 * (1.0 + mean - inner / max(1.0 - u, 1e-6)), 0.0, 1.0);
+    float behind = clamp(0.5 + 0.5 * (x - u) / transition_width, 0.0, 1.0);
+    return clamp(near_end + behind * (1.0 - far_end - near_end), 0.0, 1.0);
+}
 
 const mat4 NMT_W1[8] = mat4[8](
     mat4(vec4(0.5572419, 0.8873689, 0.025650654, -2.3207302), vec4(-0.34461814, -0.44891888, -0.39050588, -0.18091549), vec4(-0.071615376, -0.024140464, -0.008282083, 0.038272522), vec4(-3.7245471, 2.6387365, -2.2102082, -0.5306895)),
@@ -76,9 +137,10 @@ float nmt_share(float f[7]) {
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
-// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the network branches around the features
-// and the network, so that groups of threads in which all is known skip them.
-float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+// Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
+// network branches around the features and the network, so that groups of threads in which all is known skip them.
+float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
+    float z_farthest, float n, float b0, float b[4]) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = 0.0;
     if (v != nearest) {
@@ -86,88 +148,46 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
             front = others;
             if (v != farthest) {
                 float c = 0.5 * (z_nearest + z_farthest);
-                float h1 = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-                float own1 = absorbance * z;
-                float own2 = own1 * z;
-                float own3 = own2 * z;
-                float own4 = own3 * z;
-                float per_b0 = 1.0 / max(others, 1e-30);
-                float m1 = (b[0] - own1) * per_b0;
-                float m2 = (b[1] - own2) * per_b0;
-                float m3 = (b[2] - own3) * per_b0;
-                float m4 = (b[3] - own4) * per_b0;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m2 = m2 - c * m1;
-                m1 = m1 - c;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m2 = m2 - c * m1;
-                m4 = m4 - c * m3;
-                m3 = m3 - c * m2;
-                m4 = m4 - c * m3;
-                float h2 = h1 * h1;
-                float h3 = h2 * h1;
-                float h4 = h2 * h2;
-                m1 = clamp(m1 * h1, -1.0, 1.0);
-                m2 = clamp(m2 * h2, -1.0, 1.0);
-                m3 = clamp(m3 * h3, -1.0, 1.0);
-                m4 = clamp(m4 * h4, -1.0, 1.0);
-                float along = (z - c) * h1;
-                float range = farthest - nearest;
-                float ratio = range / nearest;
-                float t = (v - nearest) / max(range, 1e-30);
-                float x = clamp((ratio < 0.01 ? 2.0 * t * (1.0 + 0.5 * ratio * (1.0 - t)) - 1.0 : along), -1.0, 1.0);
-                float reach = 1.0 + 2.0 * abs(c) * h1;
-                float e1 = NMT_ROUNDING * reach * b0 * per_b0;
+                float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
+                float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
+                float m[4] = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+                float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
+                float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
+                float noise1 = moment_noise * (0.12 * sqrt(n));
                 float per_n = 1.0 / n;
-                float noise1 = e1 * (0.12 * sqrt(n));
-                float deviation1 = 0.22 + 0.7 * per_n;
-                float trust1 = deviation1 * deviation1;
-                float mean0 = m1 * (trust1 / (trust1 + noise1 * noise1));
-                float front3 = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
-                front = front3;
+                float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
-                    float further = reach * 0.87;
-                    float noise2 = min(noise1 * further, 1e15);
-                    float noise3 = noise1 * further * further;
+                    float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest)
+                        : clamp((z - c) * per_h, -1.0, 1.0));
+                    float further = noise_growth * 0.87;
+                    float noise2 = noise1 * further;
+                    float noise3 = noise2 * further;
                     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    float deviation2 = 0.12 + 0.5 * per_n;
-                    float trust2 = deviation2 * deviation2 * most0;
-                    float doubt2 = noise2 * noise2;
-                    float spread0 = (clamp(m2 - mean0 * mean0, 0.0, most0) * trust2 + (0.3 + 1.8 * per_n) * doubt2) / (most0 * trust2 + doubt2);
-                    float per_mass1 = 1.0 / max(1.0 - m2, 1e-6);
-                    float mean_part = 1.0 + spread0;
-                    float deviation3 = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
-                    float trust3 = deviation3 * deviation3;
-                    float bounded3 = min(noise3 * per_mass1, 1e15);
-                    float doubt3 = bounded3 * bounded3;
-                    float expected3 = mean0 * (1.0 - spread0);
-                    float raw_mean1 = clamp((m1 - m3) * per_mass1, -1.0, 1.0);
-                    float mean1 = (raw_mean1 * mean_part * trust3 + expected3 * doubt3) / (mean_part * (trust3 + doubt3));
-                    float noise = bounded3 + 9.536743e-7 * per_mass1;
-                    float off = noise * deviation3 / (noise + deviation3);
-                    float inner = (1.0 - spread0) * (1.0 - mean0 * mean0);
-                    float near_share = clamp(0.5 * (1.0 - mean0 - inner / max(1.0 + mean1, 1e-6)), 0.0, 1.0);
-                    float far_share = clamp(0.5 * (1.0 + mean0 - inner / max(1.0 - mean1, 1e-6)), 0.0, 1.0);
-                    float behind = clamp(0.5 + 0.5 * (x - mean1) / off, 0.0, 1.0);
-                    float front4 = others * clamp(near_share + behind * (1.0 - far_share - near_share), 0.0, 1.0);
-                    front = front4;
+                    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
+                        * per_n);
+                    // The same of (1 - x^2) times the measure, which does not hold the ends.
+                    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
+                    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
+                    float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
+                    float noise = noise3 * per_mass1;
+                    float all_noise = noise + 9.536743e-7 * per_mass1;
+                    float mean1 = nmt_shrink_to_prior(raw_mean1, expected_mean1, noise, deviation);
+                    float transition_width = all_noise * deviation / (all_noise + deviation);
+                    front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
-                        float count = log(n) * 0.48089835 - 1.0;
                         float most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        float spread_part = mean_part + spread0;
-                        float offset = mean1 * mean_part - expected3;
+                        float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         float square0 = spread0 * spread0;
-                        float expected4 = clamp((0.94 + -3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0, 0.0, spread_part);
-                        float deviation4 = (0.12 + 1.4 * per_n) * (spread0 + 0.02);
-                        float trust4 = deviation4 * deviation4 * most1;
-                        float bounded4 = min(noise3 * further * per_mass1, 1e15);
-                        float doubt4 = bounded4 * bounded4;
-                        float raw_square1 = clamp((m2 - m4) * per_mass1 - mean1 * mean1, 0.0, most1);
-                        float square1 = (raw_square1 * trust4 * spread_part + expected4 * doubt4) / (spread_part * (trust4 * most1 + doubt4));
-                        float spread1 = sqrt(square1);
-                        front = others * nmt_share(float[7](x, count, log(others + 0.05), mean0, spread0, mean1, spread1));
+                        float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
+                            * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
+                        float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
+                            * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
+                        front = others * nmt_share(float[7](x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0,
+                            spread0, mean1, spread1));
                     }
                 }
             }
