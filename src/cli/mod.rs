@@ -9,6 +9,7 @@ mod export;
 mod generate;
 mod import;
 mod interrupt;
+mod methods;
 mod predict;
 mod profile;
 mod report;
@@ -72,6 +73,9 @@ enum Command {
     /// Compare transparency methods on scenes: errors, images, contact sheets.
     #[command(after_help = examples::EVALUATE)]
     Evaluate(evaluate::Evaluate),
+    /// List transparency methods: memory, passes, needs and sources.
+    #[command(after_help = examples::METHODS)]
+    Methods(methods::Methods),
     /// Render a scene, or convert a deep image, to a fragment list.
     #[command(after_help = examples::SCENE)]
     Scene(scene::Scene),
@@ -135,8 +139,8 @@ fn keep_inputs(inputs: &[&std::path::Path], out: &std::path::Path) -> anyhow::Re
     }
 }
 
-/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage or input, 130 where
-/// it was interrupted.
+/// Parses the arguments, runs the command, and returns 0 where all is fine, 1 where a check failed, 2 for wrong usage
+/// or input, 130 where it was interrupted.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
     interrupt::install();
@@ -149,6 +153,7 @@ pub fn main() -> ExitCode {
         Command::Check(c) => c.execute(&ui),
         Command::Predict(c) => c.execute(&ui),
         Command::Evaluate(c) => c.execute(&ui),
+        Command::Methods(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),

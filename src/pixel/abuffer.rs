@@ -1,6 +1,7 @@
 //! Ground truth: all fragments of a pixel, sorted, in f64.
 
 use super::{FragmentList, Pixel, absorbance};
+use crate::numeric::exact_sum::ExactSum;
 use std::convert::Infallible;
 
 /// Transmittance in front of every fragment of a pixel, in the order of the input.
@@ -39,8 +40,8 @@ pub fn list_transmittance(list: &FragmentList) -> Vec<f64> {
     of_list(list, transmittance)
 }
 
-/// Factor by which blending from front to back has come down when it reaches a fragment, in the order of the input: Π e^−A over the fragments
-/// before it in the order (view_z, input index).
+/// Factor by which blending from front to back has come down when it reaches a fragment, in the order of the input: Π
+/// e^−A over the fragments before it in the order (view_z, input index).
 ///
 /// It is the weight that [`composite`] gives to a fragment, and [`transmittance`] but for ties, which it breaks.
 ///
@@ -83,15 +84,16 @@ fn of_list(list: &FragmentList, f: fn(Pixel<'_>, &mut [f64])) -> Vec<f64> {
     out
 }
 
-/// Total absorbance b0 = Σ A_i of a pixel.
+/// Total absorbance b0 = Σ A_i of a pixel, the same to the bit in any order of the fragments.
 pub fn total_absorbance(pixel: Pixel<'_>) -> f64 {
-    pixel.alpha.iter().map(|&a| absorbance(a)).sum()
+    pixel.alpha.iter().map(|&a| absorbance(a)).collect::<ExactSum>().value()
 }
 
 /// Colour of a pixel under the over operator: C = Σ a_i C_i T_i + e^−b0 C_bg.
 ///
-/// Fragments are taken in the order (view_z, input index) and each is weighted by T in *that order*, so that of two tied fragments the
-/// one that came first lies in front. This is the one place where a tie is broken; [`transmittance`] breaks none.
+/// Fragments are taken in the order (view_z, input index) and each is weighted by T in *that order*, so that of two
+/// tied fragments the one that came first lies in front. This is the one place where a tie is broken; [`transmittance`]
+/// breaks none.
 ///
 /// # Source
 /// NMT24 Eq. 1–2.
@@ -235,7 +237,8 @@ mod tests {
     }
 
     proptest! {
-        /// T against the product Π (1 − a_j) over strictly nearer j, taken without sorting, on alphas below the clamp. Tolerance 1e-12 relative.
+        /// T against the product Π (1 − a_j) over strictly nearer j, taken without sorting, on alphas below the clamp.
+        /// Tolerance 1e-12 relative.
         #[test]
         fn agrees_with_the_unsorted_product(pairs in prop::collection::vec((0.5f32..8.0, 0.0f32..0.99), 0..40)) {
             let (view_z, alpha): (Vec<f32>, Vec<f32>) = pairs.into_iter().map(|(v, a)| ((v * 4.0).round() / 4.0, a)).unzip();

@@ -139,8 +139,8 @@ impl FragmentList {
     /// `offsets: [P + 1]`, `view_z: [F]`, `alpha: [F]`, `color: [F]`.
     ///
     /// # Domain
-    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha and colour channels in [0, 1]. Empty pixels, a list
-    /// without fragments, ties and alpha 0 or 1 are valid.
+    /// Offsets start at 0, never fall and end at F; view_z finite and > 0; alpha and colour channels in [0, 1]. Empty
+    /// pixels, a list without fragments, ties and alpha 0 or 1 are valid.
     ///
     /// # Errors
     /// [`FragmentError`] names the first entry that is out of its domain.
@@ -229,6 +229,25 @@ impl FragmentList {
         self
     }
 
+    /// The same pixels with their fragments in another order: fragment i becomes what fragment `order[i]` was.
+    ///
+    /// # Panics
+    /// If `order` has another length than the list, or takes a fragment from another pixel.
+    pub fn reordered(&self, order: &[usize]) -> Self {
+        assert_eq!(order.len(), self.len(), "one place a fragment");
+        let stays = |p: usize| order[self.range(p)].iter().all(|i| self.range(p).contains(i));
+        assert!((0..self.pixels()).all(stays), "fragments stay in their pixels");
+        Self {
+            view_z: order.iter().map(|&i| self.view_z[i]).collect(),
+            alpha: order.iter().map(|&i| self.alpha[i]).collect(),
+            color: self
+                .color
+                .as_ref()
+                .map(|color| order.iter().map(|&i| color[i]).collect()),
+            ..self.clone()
+        }
+    }
+
     /// The pixels of this list, then those of another, with this list's planes; not an image any more.
     ///
     /// Colours stay where both lists have them.
@@ -290,8 +309,8 @@ impl FragmentList {
         }
     }
 
-    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of an array that holds `width`
-    /// values for every fragment of the range, in the order of the list.
+    /// Runs `f(p, pixel, out)` for every non-empty pixel of a range on all cores, `out` being the pixel's own part of
+    /// an array that holds `width` values for every fragment of the range, in the order of the list.
     ///
     /// # Errors
     /// The first error of `f`, whichever thread meets it.
@@ -371,7 +390,8 @@ impl FragmentList {
     }
 }
 
-/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop runs on SIMD lanes.
+/// The first value that is not in a domain. A chunk is looked at as a whole, without an early exit, so that the loop
+/// runs on SIMD lanes.
 fn first_outside(values: &[f32], domain: impl Fn(f32) -> bool) -> Option<usize> {
     const CHUNK: usize = 1024;
     let chunk = values

@@ -1,6 +1,6 @@
 //! Scene files: what is to be seen, and from where, in TOML.
 
-use super::camera::{Camera, Vec3, cross, dot, sub, unit};
+use super::camera::{Camera, Vec3, View, cross, dot, sub, unit};
 use super::mesh::{self, Affine, IDENTITY, apply, compose};
 use super::raster::{Geometry, Vertex, rasterise};
 use super::{BUILT_IN, Options, SceneError, procedural};
@@ -21,6 +21,9 @@ pub struct SceneFile {
     pub seed: Option<u64>,
     /// The camera; a built-in scene has one of its own where none is given.
     pub camera: Option<Camera>,
+    /// A spot light, described as the camera that sees what it shines on; a built-in scene has one of its own where
+    /// none is given.
+    pub light: Option<Camera>,
     /// Meshes; none where a built-in scene is named.
     #[serde(default, rename = "mesh")]
     pub meshes: Vec<MeshEntry>,
@@ -100,6 +103,7 @@ impl SceneFile {
             built_in: Some(name.to_owned()),
             seed: None,
             camera: None,
+            light: None,
             meshes: Vec::new(),
             path: name.into(),
         })
@@ -225,7 +229,37 @@ impl SceneFile {
     ///
     /// # Errors
     /// [`SceneError`] for a mesh that cannot be read or a picture that would take too much memory.
-    pub(super) fn build(&self, options: &Options) -> Result<FragmentList, SceneError> {
+    /// The file that this was read from.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The light, or that of a built-in scene.
+    pub(super) fn light_camera(&self) -> Result<Camera, SceneError> {
+        match (self.light, &self.built_in) {
+            (Some(light), _) => Ok(light),
+            (None, Some(name)) => Ok(procedural::light(name)),
+            (None, None) => Err(SceneError::field(
+                &self.path,
+                "light",
+                "it is missing".to_owned(),
+                "a [light] with the fields of a camera",
+            )),
+        }
+    }
+
+    /// The fragments, objects drawn in their own order or in a random one.
+    pub(super) fn build(&self, options: &Options, draw_order: Option<u64>) -> Result<FragmentList, SceneError> {
+        let (geometry, view) = self.seen(options)?;
+        let geometry = match draw_order {
+            Some(seed) => geometry.in_random_order(seed),
+            None => geometry,
+        };
+        rasterise(&geometry, &view)
+    }
+
+    /// The geometry and the camera's view of it.
+    pub(super) fn seen(&self, options: &Options) -> Result<(Geometry, View), SceneError> {
         self.validate()?;
         let mut camera = self.camera()?;
         if let Some((width, height)) = options.size {
@@ -236,7 +270,7 @@ impl SceneFile {
             Some(name) => procedural::geometry(name, options.seed.or(self.seed).unwrap_or(1), view.eye),
             None => self.mesh_geometry()?,
         };
-        rasterise(&geometry, &view)
+        Ok((geometry, view))
     }
 
     fn mesh_geometry(&self) -> Result<Geometry, SceneError> {
@@ -307,12 +341,14 @@ impl SceneFile {
                     }));
                 }
             }
+            geometry.end_object();
         }
         Ok(geometry)
     }
 }
 
-/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit alike.
+/// Colour of a matt surface under a lamp above and to the left of the usual viewer; both sides of a surface are lit
+/// alike.
 pub(super) fn lit(color: [f32; 3], normal: Vec3) -> [f32; 3] {
     /// Share of the light that comes from everywhere.
     const AMBIENT: f64 = 0.35;

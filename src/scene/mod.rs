@@ -8,6 +8,7 @@ pub mod npz;
 pub mod path;
 mod procedural;
 mod raster;
+pub mod shadow;
 
 pub use camera::Camera;
 pub use file::{MaterialOverride, MeshEntry, SceneFile};
@@ -21,7 +22,7 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 7] = [
+pub const BUILT_IN: [&str; 8] = [
     "glass-stacks",
     "smoke",
     "hair",
@@ -29,6 +30,7 @@ pub const BUILT_IN: [&str; 7] = [
     "spheres",
     "sphere-cluster",
     "teapots",
+    "curtains",
 ];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
@@ -151,12 +153,23 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// The fragments of a scene, with colours, image size and camera planes.
 ///
 /// The result depends on the scene and the options alone, not on the number of threads.
-/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its pixel is left out.
+/// An opaque fragment (alpha 1) is kept as a fragment, and what lies strictly behind the nearest opaque one of its
+/// pixel is left out.
 ///
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
 pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
-    scene.build(options)
+    scene.build(options, None)
+}
+
+/// The same fragments as [`build`] makes, the objects drawn in a random order: within a pixel fragments stand in the
+/// order in which a renderer that does not sort would shade them. Objects are the meshes of a scene file, and the
+/// panes, locks, leaves, pots, spheres and particles of built-in scenes.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_in_random_order(scene: &SceneFile, options: &Options, seed: u64) -> Result<FragmentList, SceneError> {
+    scene.build(options, Some(seed))
 }
 
 /// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image.
@@ -201,6 +214,7 @@ mod tests {
             ("spheres", 6),
             ("sphere-cluster", 16),
             ("teapots", 6),
+            ("curtains", 20),
         ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
@@ -210,6 +224,44 @@ mod tests {
                 "{name} covers {covered} of {} pixels",
                 list.pixels()
             );
+        }
+    }
+
+    /// A random draw order moves fragments within their pixels and changes none; objects stay whole. Control: it does
+    /// move some.
+    #[test]
+    fn draw_orders_move_whole_objects() {
+        let options = Options {
+            size: Some((48, 48)),
+            seed: Some(3),
+        };
+        for name in ["glass-stacks", "foliage", "smoke", "curtains"] {
+            let scene = open(name).unwrap();
+            let (listed, drawn) = (
+                build(&scene, &options).unwrap(),
+                build_in_random_order(&scene, &options, 1).unwrap(),
+            );
+            let sorted = |list: &FragmentList, p: usize| {
+                let pixel = list.pixel(p);
+                let mut all: Vec<_> = (0..pixel.len())
+                    .map(|i| {
+                        (
+                            pixel.view_z[i].to_bits(),
+                            pixel.alpha[i].to_bits(),
+                            pixel.color.unwrap()[i].map(f32::to_bits),
+                        )
+                    })
+                    .collect();
+                all.sort_unstable();
+                all
+            };
+            assert_eq!(listed.offsets(), drawn.offsets(), "{name}");
+            assert!(
+                (0..listed.pixels()).all(|p| sorted(&listed, p) == sorted(&drawn, p)),
+                "{name}"
+            );
+            assert_ne!(listed, drawn, "{name}");
+            assert_eq!(drawn, build_in_random_order(&scene, &options, 1).unwrap());
         }
     }
 

@@ -1,14 +1,18 @@
 //! A software rasteriser: surfaces and particles to the fragments of every pixel.
 //!
-//! Samples lie at pixel centres. Vertices are snapped to 1/256 of a pixel and edges are decided in whole numbers under the top-left rule, so a
-//! sample on an edge that two triangles share belongs to exactly one of them. Both sides of a surface are drawn.
+//! Samples lie at pixel centres. Vertices are snapped to 1/256 of a pixel and edges are decided in whole numbers under
+//! the top-left rule, so a sample on an edge that two triangles share belongs to exactly one of them. Both sides of a
+//! surface are drawn.
 //!
-//! A picture is cut into bands of rows; each band is rasterised twice, first to count its fragments and then to fill in arrays of exactly the size
-//! needed. Fragments of a pixel stand in the order of the primitives (triangles first), whatever the number of threads.
+//! A picture is cut into bands of rows; each band is rasterised twice, first to count its fragments and then to fill in
+//! arrays of exactly the size needed. Fragments of a pixel stand in the order of the primitives (triangles first),
+//! whatever the number of threads.
 
 use super::camera::{Vec3, View};
 use super::{MAX_FRAGMENTS, SceneError};
+use crate::numeric::rng::stream;
 use crate::pixel::FragmentList;
+use rand::RngExt;
 use rayon::prelude::*;
 
 /// Corner of a triangle.
@@ -41,11 +45,55 @@ pub struct Geometry {
     pub triangles: Vec<Triangle>,
     /// Soft particles; never opaque.
     pub particles: Vec<Particle>,
+    /// Where objects end among the triangles, in rising order; what comes after the last is one object more. Every
+    /// particle is an object.
+    pub object_ends: Vec<usize>,
+}
+
+/// What random draw orders are drawn for.
+const DRAW_ORDER: u64 = 0x0d0e;
+
+impl Geometry {
+    /// Ends the object that the last triangles belong to.
+    pub fn end_object(&mut self) {
+        self.object_ends.push(self.triangles.len());
+    }
+
+    /// The same geometry with its objects in a random order, as a renderer draws them that does not sort; surfaces stay
+    /// before particles.
+    pub fn in_random_order(self, seed: u64) -> Self {
+        let mut rng = stream(seed, DRAW_ORDER, 0);
+        let mut shuffle = |n: usize| {
+            let mut order: Vec<usize> = (0..n).collect();
+            for i in (1..n).rev() {
+                order.swap(i, (rng.random::<f64>() * (i + 1) as f64) as usize);
+            }
+            order
+        };
+        let mut starts = vec![0];
+        starts.extend(
+            self.object_ends
+                .iter()
+                .copied()
+                .filter(|&end| end < self.triangles.len()),
+        );
+        let end = |object: usize| starts.get(object + 1).copied().unwrap_or(self.triangles.len());
+        let mut out = Self::default();
+        for object in shuffle(starts.len()) {
+            out.triangles
+                .extend_from_slice(&self.triangles[starts[object]..end(object)]);
+            out.end_object();
+        }
+        let particles = shuffle(self.particles.len());
+        out.particles = particles.into_iter().map(|i| self.particles[i]).collect();
+        out
+    }
 }
 
 /// Subpixel steps in a pixel.
 const STEPS: i64 = 256;
-/// Greatest distance of a snapped vertex from the picture's centre \[pixels\]; products of two such distances in subpixel steps fit 64 bits.
+/// Greatest distance of a snapped vertex from the picture's centre \[pixels\]; products of two such distances in
+/// subpixel steps fit 64 bits.
 const GUARD: f64 = (1 << 20) as f64;
 /// Rows of a band.
 const BAND: usize = 8;
@@ -416,7 +464,8 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
     let opaque = triangle.iter().all(|v| v.rgba[3] >= 1.0);
     let snap = |c: &Corner| {
         let (x, y) = view.to_pixel(c.at);
-        // Rounding of far cut points may leave the guard band a little; whole-number products still fit at twice its size.
+        // Rounding of far cut points may leave the guard band a little; whole-number products still fit at twice its
+        // size.
         [x, y]
             .map(|v| v.clamp(-2.0 * GUARD, 2.0 * GUARD))
             .map(|v| (v * STEPS as f64).round() as i32)
@@ -452,8 +501,8 @@ fn to_screen(triangle: &Triangle, view: &View, out: &mut Vec<ScreenTriangle>) {
     }
 }
 
-/// The part of a polygon where `plane` is not negative. A cut point is always computed from the inner end of its edge, so that two triangles cut a
-/// shared edge at the same point.
+/// The part of a polygon where `plane` is not negative. A cut point is always computed from the inner end of its edge,
+/// so that two triangles cut a shared edge at the same point.
 fn cut(polygon: &[Corner], plane: &dyn Fn(Vec3) -> f64) -> Vec<Corner> {
     let mut out = Vec::with_capacity(polygon.len() + 1);
     for (i, &b) in polygon.iter().enumerate() {
@@ -507,6 +556,7 @@ mod tests {
             &Geometry {
                 triangles,
                 particles: Vec::new(),
+                ..Geometry::default()
             },
             view,
         )
@@ -516,7 +566,8 @@ mod tests {
     const GLASS: [f32; 4] = [0.2, 0.4, 0.6, 0.5];
 
     proptest! {
-        /// A fan around a point within the picture covers every sample exactly once, wherever the point lies; the control turns one triangle away.
+        /// A fan around a point within the picture covers every sample exactly once, wherever the point lies; the
+        /// control turns one triangle away.
         #[test]
         fn shared_edges_give_one_fragment(x in -3.9f32..3.9, y in -3.9f32..3.9, depth in 4.0f32..30.0) {
             let view = view(33, 31);
@@ -541,8 +592,9 @@ mod tests {
         }
     }
 
-    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here below 1e-3 of the depth. Control:
-    /// depth interpolated linearly on the screen, between the depths at the left and right edge, is further off in the middle.
+    /// A slanted plane's depth against the ray's intersection. Tolerance: vertices move by up to 1/512 pixel, here
+    /// below 1e-3 of the depth. Control: depth interpolated linearly on the screen, between the depths at the left and
+    /// right edge, is further off in the middle.
     #[test]
     fn depth_is_perspective_correct() {
         let view = view(64, 64);
