@@ -4,7 +4,7 @@
 
 use nmt::evaluate::Truth;
 use nmt::model::shipped;
-use nmt::oit::{Accumulated, Context, Method, MethodError, neural::Neural, parse};
+use nmt::oit::{Accumulated, Capabilities, Context, Method, MethodError, neural::Neural, parse};
 use nmt::pixel::{FragmentList, absorbance};
 use nmt::scene;
 
@@ -21,8 +21,9 @@ impl Method for HalfInFront {
         "half-in-front".to_owned()
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        32 + 128
+    /// One sum a pixel, and two passes over the geometry.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::of_sums(1, false)
     }
 
     /// Pass 1: the sum of absorbance of each pixel.

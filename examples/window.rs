@@ -77,10 +77,9 @@ struct Scene {
 
 impl Scene {
     fn new(name: &'static str) -> Self {
-        let geometry = scene::open(name).and_then(|s| s.geometry()).expect("a built-in scene");
         let Geometry {
             triangles, particles, ..
-        } = geometry;
+        } = scene::open(name).and_then(|s| s.geometry()).expect("a built-in scene");
         let (mut opaque, mut clear): (Vec<Corner>, Vec<Corner>) = (Vec::new(), Vec::new());
         for triangle in &triangles {
             let corners = triangle.map(|corner| {

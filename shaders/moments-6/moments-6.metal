@@ -248,10 +248,10 @@ type_2 nmt_recentred(
     float per_mass2 = 1.0 / metal::max(q0_2, 0.000001);
     float raw_mean2 = metal::clamp(q1_2 * per_mass2, -1.0, 1.0);
     float noise_2_ = (((moment_noise * noise_growth) * noise_growth) * noise_growth) * noise_growth;
-    float bounded_1 = metal::min(noise_2_ * per_mass2, 1000000000000000.0);
-    float mean2 = raw_mean2 * (1.0 / (1.0 + (bounded_1 * bounded_1)));
-    float bounded_2_ = metal::min((noise_2_ * noise_growth) * per_mass2, 1000000000000000.0);
-    float spread2 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2 * per_mass2) - (raw_mean2 * raw_mean2)) / metal::max(1.0 - (raw_mean2 * raw_mean2), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (bounded_2_ * bounded_2_))));
+    float rounded = noise_2_ * per_mass2;
+    float mean2 = raw_mean2 * (1.0 / (1.0 + (rounded * rounded)));
+    float rounded_2 = (noise_2_ * noise_growth) * per_mass2;
+    float spread2 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2 * per_mass2) - (raw_mean2 * raw_mean2)) / metal::max(1.0 - (raw_mean2 * raw_mean2), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (rounded_2 * rounded_2))));
     return type_2 {{x_2, (metal::log(n) * 0.48089835) - 1.0, metal::log(others + 0.05), _e54, _e91, _e123, spread1, mean2, spread2, known}};
 }
 
@@ -351,19 +351,19 @@ float nmt_fragment_transmittance(
                         float per_mass2_1 = 1.0 / metal::max(q0_2_1, 0.000001);
                         float raw_mean2_1 = metal::clamp(q1_2_1 * per_mass2_1, -1.0, 1.0);
                         float noise_2_1 = (((moment_noise_1 * noise_growth_1) * noise_growth_1) * noise_growth_1) * noise_growth_1;
-                        float bounded_2 = metal::min(noise_2_1 * per_mass2_1, 1000000000000000.0);
-                        float mean2_1 = raw_mean2_1 * (1.0 / (1.0 + (bounded_2 * bounded_2)));
-                        float bounded_2_1 = metal::min((noise_2_1 * noise_growth_1) * per_mass2_1, 1000000000000000.0);
-                        float spread2_1 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2_1 * per_mass2_1) - (raw_mean2_1 * raw_mean2_1)) / metal::max(1.0 - (raw_mean2_1 * raw_mean2_1), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (bounded_2_1 * bounded_2_1))));
-                        float _e278 = nmt_share(type_8 {{x_3, (metal::log(n_1) * 0.48089835) - 1.0, metal::log(others_1 + 0.05), _e61, _e108, _e140, spread1_1, mean2_1, spread2_1}});
-                        front_1 = others_1 * _e278;
+                        float rounded_1 = noise_2_1 * per_mass2_1;
+                        float mean2_1 = raw_mean2_1 * (1.0 / (1.0 + (rounded_1 * rounded_1)));
+                        float rounded_2_1 = (noise_2_1 * noise_growth_1) * per_mass2_1;
+                        float spread2_1 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2_1 * per_mass2_1) - (raw_mean2_1 * raw_mean2_1)) / metal::max(1.0 - (raw_mean2_1 * raw_mean2_1), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (rounded_2_1 * rounded_2_1))));
+                        float _e274 = nmt_share(type_8 {{x_3, (metal::log(n_1) * 0.48089835) - 1.0, metal::log(others_1 + 0.05), _e61, _e108, _e140, spread1_1, mean2_1, spread2_1}});
+                        front_1 = others_1 * _e274;
                     }
                 }
             }
         }
     }
-    float _e280 = front_1;
-    return metal::min(metal::exp(-(_e280)), 1.0);
+    float _e276 = front_1;
+    return metal::min(metal::exp(-(_e276)), 1.0);
 }
 
 float nmt_first_hidden_depth(

@@ -1,6 +1,7 @@
 //! What transparency methods cost against their error on one fragment list, on the CPU and on the GPU.
 
 use super::{BenchError, Plan, Summary, calls_that_fill};
+use crate::evaluate::order;
 use crate::evaluate::{EvaluateError, Truth};
 use crate::export::{Format, Precision};
 use crate::features::FeatureSet;
@@ -9,12 +10,13 @@ use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::model::Mlp;
 use crate::oit::neural::{Neural, Skip};
 use crate::oit::shader::Composite;
-use crate::oit::{self, Accumulated, Context, Method, MethodError};
+use crate::oit::{self, Accumulated, Capabilities, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// The GPU's passes without a method: every weight is 1, once a fragment and its pixel's total are there. What it costs, nearly every method costs.
+/// The GPU's passes without a method: every weight is 1, once a fragment and its pixel's total are there. What it
+/// costs, nearly every method costs.
 pub const NONE: &str = "none";
 
 /// Why costs could not be measured.
@@ -93,8 +95,8 @@ pub struct Cost {
     pub clock: Clock,
     /// Fragments of the list.
     pub fragments: usize,
-    /// Memory of pass 1 and the composite \[bits\].
-    pub bits_per_pixel: u32,
+    /// Memory, passes, needs, and whether the order of the fragments counts.
+    pub capabilities: Capabilities,
     /// Mean squared error of T; none where weights are no transmittances, NaN where one is not finite.
     pub transmittance_mse: Option<f64>,
     /// Mean squared error of the image; none where the list makes none, NaN where a channel is not finite.
@@ -204,7 +206,8 @@ impl Table {
     }
 }
 
-/// Which points (time, error) no other one dominates: none is at most as great in both and less in one. What has no error, or NaN, is on no front.
+/// Which points (time, error) no other one dominates: none is at most as great in both and less in one. What has no
+/// error, or NaN, is on no front.
 pub fn front(points: &[Option<(f64, f64)>]) -> Vec<bool> {
     let usable = |p: &Option<(f64, f64)>| p.filter(|(t, e)| !t.is_nan() && !e.is_nan());
     let dominates = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
@@ -249,9 +252,15 @@ impl Setting<'_> {
         }
     }
 
-    /// A row without times, from how a method did.
+    /// A row without times, from how a method did; where the order of the fragments counts, in a random one.
     fn cost(&self, method: &dyn Method, adapter: &str, clock: Clock) -> Result<Cost, MethodsError> {
-        let result = self.truth.judge(method, self.context)?.result;
+        let result = if method.capabilities().order_dependent {
+            let shuffled = order::shuffle_fragments(self.list(), 1);
+            let truth = Truth::new(&shuffled, self.truth.background());
+            truth.judge(method, self.context)?.result
+        } else {
+            self.truth.judge(method, self.context)?.result
+        };
         Ok(Cost {
             method: result.method,
             network: None,
@@ -260,7 +269,7 @@ impl Setting<'_> {
             arithmetic: "f64",
             clock,
             fragments: self.list().len(),
-            bits_per_pixel: result.bits_per_pixel,
+            capabilities: result.capabilities,
             transmittance_mse: result.transmittance_mse,
             image_mse: result.image_mse,
             flip_mean: result.flip_mean,
@@ -273,7 +282,8 @@ impl Setting<'_> {
         })
     }
 
-    /// What methods cost on this machine's CPU, named `adapter`: classic ones as the f64 reference that they are here, networks with f32 SIMD.
+    /// What methods cost on this machine's CPU, named `adapter`: classic ones as the f64 reference that they are here,
+    /// networks with f32 SIMD.
     ///
     /// A method that cannot be applied to the list is left out, with the reason.
     ///
@@ -343,8 +353,8 @@ impl Setting<'_> {
         .finish())
     }
 
-    /// What methods cost on a GPU in compute passes over the list: pass 1 a thread a pixel, pass 2 a thread a fragment. Errors are those of the GPU's own weights.
-    /// Pipelines are made, and run once, outside of what is timed.
+    /// What methods cost on a GPU in compute passes over the list: pass 1 a thread a pixel, pass 2 a thread a fragment.
+    /// Errors are those of the GPU's own weights. Pipelines are made, and run once, outside of what is timed.
     ///
     /// A method that has no twin, or cannot be applied to the list, is left out, with the reason.
     ///
@@ -380,7 +390,7 @@ impl Setting<'_> {
             let weights = passes.weights(gpu).map_err(refused(&shader.name))?;
             let given = Given {
                 name: shader.name.clone(),
-                bits: about.bits,
+                capabilities: about.capabilities,
                 transmittance: about.transmittance,
                 composite: shader.composite,
                 weights: weights.into_iter().map(f64::from).collect(),
@@ -415,9 +425,9 @@ impl Setting<'_> {
         half: bool,
         left_out: &mut Vec<LeftOut>,
     ) -> Vec<(MethodShader, About)> {
-        // b0 in f32, and a colour target of four half-precision channels.
+        // b0 in f32.
         let none = About {
-            bits: 96,
+            capabilities: Capabilities::of_sums(1, false),
             transmittance: true,
             network: None,
             format: None,
@@ -428,11 +438,11 @@ impl Setting<'_> {
             match candidate {
                 Candidate::Method(method) => match method.shader() {
                     Some(shader) => {
-                        let (bits, transmittance) = (method.bits_per_pixel(), method.weights_are_transmittance());
+                        let (capabilities, transmittance) = (method.capabilities(), method.weights_are_transmittance());
                         shaders.push((
                             shader,
                             About {
-                                bits,
+                                capabilities,
                                 transmittance,
                                 network: None,
                                 format: None,
@@ -456,7 +466,7 @@ impl Setting<'_> {
                         match MethodShader::neural(mlp, format).map(|shader| shader.with_skip(self.skip)) {
                             Ok(shader) => {
                                 let about = About {
-                                    bits: neural.bits_per_pixel(),
+                                    capabilities: neural.capabilities(),
                                     transmittance: mlp.feature_set() != FeatureSet::DeepWeightedBlended,
                                     network: Some(mlp.shape()),
                                     format: Some(format.name()),
@@ -539,7 +549,7 @@ fn is_half(format: Format) -> bool {
 
 /// What a shader does not say of its method.
 struct About {
-    bits: u32,
+    capabilities: Capabilities,
     transmittance: bool,
     network: Option<String>,
     format: Option<&'static str>,
@@ -549,7 +559,7 @@ struct About {
 /// Weights that were computed elsewhere, as a method.
 struct Given {
     name: String,
-    bits: u32,
+    capabilities: Capabilities,
     transmittance: bool,
     composite: Composite,
     weights: Vec<f64>,
@@ -560,8 +570,8 @@ impl Method for Given {
         self.name.clone()
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        self.bits
+    fn capabilities(&self) -> Capabilities {
+        self.capabilities
     }
 
     fn weights_are_transmittance(&self) -> bool {
@@ -661,7 +671,8 @@ mod tests {
         all
     }
 
-    /// Every row has as many samples as there are repetitions, rows come fastest first, and errors are those of the evaluation.
+    /// Every row has as many samples as there are repetitions, rows come fastest first, and errors are those of the
+    /// evaluation.
     #[test]
     fn cpu_rows_are_complete() {
         let list = list();
@@ -754,7 +765,7 @@ mod tests {
         weights[3] = f64::NAN;
         let given = Given {
             name: "given".to_owned(),
-            bits: 1,
+            capabilities: Capabilities::of_sums(1, false),
             transmittance: true,
             composite: Composite::Normalised,
             weights,

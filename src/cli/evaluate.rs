@@ -1,37 +1,43 @@
 //! `nmt evaluate`
 
+mod chart;
+mod frames;
+mod methods;
+mod shadows;
+mod tables;
+
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load, moving_scene, refuse_outside};
-use super::ui::{Ui, table};
+use super::scene::{SceneOptions, ViewOptions, load, load_in_random_order, moving_scene, refuse_outside};
+use super::ui::Ui;
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
+use crate::evaluate::order::{fragment_orders, judge_in_orders};
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
-use crate::evaluate::{MethodResult, OverTime, Truth, over_time};
-use crate::export::Format;
-use crate::features::MomentFrame;
-use crate::gpu::{Gpu, MethodShader};
-use crate::model::shipped;
+use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
+use crate::gpu::Gpu;
 use crate::numeric::file::{Replace, may_write, write_atomically};
-use crate::oit::neural::{Neural, Skip};
-use crate::oit::{Context, Method, all_names, parse, shader_of};
+use crate::oit::neural::Skip;
+use crate::oit::{Context, Method};
 use crate::pixel::FragmentList;
-use crate::scene::CameraPath;
-use crate::shader::ShaderError;
+use crate::scene::BUILT_IN;
 use crate::shader::passes::TargetPrecision;
 use anyhow::bail;
 use clap::Args;
+use methods::Requested;
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Evaluate {
-    /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
+    /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes; "built-in"
+    /// stands for all of those.
     #[arg(long, value_name = "F.npz|SCENE", required = true, value_delimiter = ',', num_args = 1..)]
     fragments: Vec<String>,
-    /// Methods, by name; "all" stands for every classic one.
-    #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "all")]
+    /// Methods, by name; "all" stands for every classic one, and without the option there are those that tell the
+    /// story.
+    #[arg(long, value_delimiter = ',', num_args = 1..)]
     methods: Vec<String>,
     /// Networks to evaluate beside them.
     #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
@@ -43,7 +49,22 @@ pub struct Evaluate {
     /// has found.
     #[arg(long, requires = "model")]
     prepass: bool,
-    /// Folder for images, contact sheets and results.json.
+    /// Random orders of fragments, and as many of whole objects where the scene is rendered here, for methods that
+    /// depend on the order; errors are means over them. 0 takes fragments as they stand in the list.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u64).range(0..=100))]
+    orders: u64,
+    /// Evaluate them also on glass that is tinted in its own colour by this strength, from 0 to 1: with one
+    /// transmittance, and with one a channel.
+    #[arg(long, value_name = "S")]
+    tint: Option<f64>,
+    /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
+    #[arg(long, conflicts_with_all = ["gpu", "tint", "frames"])]
+    shadows: bool,
+    /// Points of surfaces that are asked for their light; of the floor under the scene there are about five times as many.
+    #[arg(long, value_name = "N", requires = "shadows", default_value_t = 2000,
+        value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    shadow_points: u32,
+    /// Folder for images, contact sheets, comparison.md, comparison.svg and results.json.
     #[arg(long)]
     out: PathBuf,
     #[command(flatten)]
@@ -55,7 +76,7 @@ pub struct Evaluate {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     frames: Option<u32>,
     /// Angle of the camera between two frames [degrees].
-    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = turn, allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = frames::turn, allow_negative_numbers = true)]
     degrees_per_frame: f64,
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]
@@ -88,270 +109,338 @@ impl From<StorageName> for TargetPrecision {
     }
 }
 
-/// An angle that turns a camera.
-fn turn(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(degrees) if degrees != 0.0 && degrees.abs() <= 180.0 => Ok(degrees),
-        _ => Err("expected an angle from -180 to 180 degrees, not 0".to_owned()),
-    }
-}
-
-/// A method that was asked for.
-struct Asked {
-    method: Box<dyn Method>,
-    /// Whether it was asked for by its own name.
-    demanded: bool,
-    /// Whether `--skip` is for it: a network of `--model`.
-    skips: bool,
-    /// What the GPU runs; none where there is no shader for it.
-    shader: Option<Result<MethodShader, ShaderError>>,
-}
-
 /// The file that holds all numbers.
 const RESULTS: &str = "results.json";
 
+/// What is the same for every scene.
+struct Session<'a> {
+    options: &'a Evaluate,
+    ui: &'a Ui,
+    replace: Replace,
+    context: Context,
+    background: [f64; 3],
+    methods: Vec<Requested>,
+    gpu: Option<&'static Gpu>,
+}
+
+/// A method's numbers on a scene, on the CPU and where it was drawn there on the GPU.
+struct Row {
+    cpu: MethodResult,
+    gpu: Option<GpuResult>,
+    tinted: Option<TintedResult>,
+    /// Whether it was asked for by its own name.
+    demanded: bool,
+}
+
+/// What was found on a scene.
+struct SceneResults {
+    name: String,
+    list: FragmentList,
+    /// Least error first.
+    rows: Vec<Row>,
+    /// Methods that could not be applied, and why; whether they were asked for by name.
+    refused: Vec<(String, String, bool)>,
+    /// What a reader should know besides, a line each.
+    remarks: String,
+}
+
 impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let replace = if self.force { Replace::Yes } else { Replace::No };
-        may_write(&self.out.join(RESULTS), replace)?;
-        let context = self.view.context()?;
-        let background = self.view.background()?;
-        let methods = self.methods()?;
-        let gpu = if self.gpu { Some(Gpu::shared()?) } else { None };
-
-        let with_skip: HashSet<String> = methods
-            .iter()
-            .filter(|asked| asked.skips)
-            .map(|asked| asked.method.name())
-            .collect();
-        let names = scene_names(&self.fragments);
+        let session = self.session(ui)?;
+        let scenes = self.scenes();
         if self.frames.is_some() {
-            for scene in &self.fragments {
+            for scene in &scenes {
                 moving_scene(scene)?;
             }
         }
+        if self.shadows {
+            let named: Vec<(String, String)> = scenes.iter().cloned().zip(scene_names(&scenes)).collect();
+            if session.shadows(&named)? {
+                bail!("a method could not be applied; see above");
+            }
+            return Ok(Verdict::Fine);
+        }
         let mut results = Vec::new();
-        let mut refused = false;
-        for (scene, name) in self.fragments.iter().zip(&names) {
-            let list = load(ui, scene, &self.options)?;
-            refuse_outside(&list, context.planes)?;
-            let truth = Truth::new(&list, background);
-            let mut remarks = String::new();
-            let folder = self.out.join(name);
-            let mut sheet = match truth.image() {
-                Ok(image) => {
-                    write_image(&folder.join("truth.png"), replace, image)?;
-                    Some(Sheet::new(name, &list, image))
-                }
-                // Errors of T need no image.
-                Err(why) => {
-                    remarks += &format!("no pictures, {why}\n");
-                    None
-                }
-            };
-            let progress = ui.progress("evaluate", methods.len() as u64);
-            let mut found: Vec<(MethodResult, Option<GpuResult>)> = Vec::new();
-            let mut applied: Vec<&dyn Method> = Vec::new();
-            let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-            for (
-                index,
-                Asked {
-                    method,
-                    demanded,
-                    shader,
-                    skips,
-                },
-            ) in methods.iter().enumerate()
-            {
-                progress.set(index as u64, format!("{name}: {}", method.name()));
-                let mut judged = match truth.judge(&**method, context) {
-                    Ok(judged) => judged,
-                    Err(why) => {
-                        refused |= *demanded;
-                        remarks += &format!("not applied, {why}\n");
-                        results.push(json!({ "scene": name, "method": method.name(), "error": why.to_string() }));
-                        continue;
-                    }
-                };
-                let stem = (1..).map(|n| {
-                    if n == 1 {
-                        file_stem(&method.name())
-                    } else {
-                        format!("{}-{n}", file_stem(&method.name()))
-                    }
-                });
-                let stem = stem
-                    .into_iter()
-                    .find(|s| !stems.contains(s))
-                    .expect("there are more numbers than methods");
-                write_method(&folder, &stem, replace, &judged)?;
-                let mut drawn = None;
-                if let (Some(gpu), Some((image, _))) = (gpu, &judged.picture) {
-                    let judged = match shader {
-                        Some(Ok(shader)) => {
-                            let skip = if *skips { self.skip.into() } else { Skip::Exact };
-                            gpu::judge(gpu, shader, &truth, context, self.gpu_storage.into(), skip, image)
-                                .map_err(|e| e.to_string())
-                        }
-                        Some(Err(why)) => Err(why.to_string()),
-                        None => Err(format!("{} has no shader", method.name())),
-                    };
-                    match judged {
-                        Ok(judged) => {
-                            write_image(&folder.join(format!("{stem}.gpu.png")), replace, &judged.image)?;
-                            write_flip(&folder.join(format!("{stem}.gpu.flip.png")), replace, &judged.map)?;
-                            drawn = Some(judged.result);
-                        }
-                        Err(why) => remarks += &format!("not on the GPU, {why}\n"),
-                    }
-                }
-                stems.insert(stem.clone());
-                judged.result.picture = judged.picture.is_some().then_some(stem);
-                if let Some(sheet) = &mut sheet {
-                    sheet.add(&judged)?;
-                }
-                found.push((judged.result, drawn));
-                applied.push(&**method);
-            }
-            progress.finish();
-            if let Some(path) = self.path() {
-                let changes = changes(scene, &self.options, path, &applied, (context, background), ui)?;
-                for ((result, _), change) in found.iter_mut().zip(changes) {
-                    result.over_time = change;
-                }
-            }
-            found.sort_by(|a, b| by_error(&a.0, &b.0));
-            if let Some(sheet) = sheet.filter(|_| !found.is_empty()) {
-                sheet.write(&folder.join("sheet.png"), replace)?;
-            }
-            let heading = format!(
-                "{name}: {} fragments, at most {} in a pixel{}\n",
-                list.len(),
-                list.depth_complexity(),
-                moving(self.path(), &found)
-            );
+        for (scene, name) in scenes.iter().zip(scene_names(&scenes)) {
+            let found = session.scene(scene, name)?;
             if !ui.json() {
-                let on_gpu = gpu.map_or_else(String::new, |gpu| gpu_rows(gpu, self.gpu_storage.into(), &found));
-                ui.print(&format!("{heading}{}{on_gpu}{remarks}\n", rows(&found)))?;
+                ui.print(&session.text(&found))?;
             }
-            results.extend(
-                found
-                    .iter()
-                    .map(|(cpu, gpu)| with_scene(cpu, name, &list, gpu.as_ref())),
-            );
+            results.push(found);
         }
-        let skip = Skip::from(self.skip);
-        for result in results.iter_mut().filter_map(Value::as_object_mut) {
-            let method = result.get("method").and_then(Value::as_str);
-            if method.is_some_and(|name| with_skip.contains(name)) {
-                result.insert("skip".to_owned(), json!(skip));
-            }
-        }
-        let report = ui.report("evaluate", results);
-        let json = serde_json::to_string_pretty(&report)? + "\n";
-        write_atomically(&self.out.join(RESULTS), replace, |w| w.write_all(json.as_bytes()))?;
-        if ui.json() {
-            ui.print(&json)?;
-        } else {
-            ui.print(&format!("{}\n", self.out.display()))?;
-        }
+        session.finish(&results)?;
+        let refused = results
+            .iter()
+            .flat_map(|r| &r.refused)
+            .any(|(_, _, demanded)| *demanded);
         if refused {
             bail!("a method that was asked for by name could not be applied; see above");
         }
         Ok(Verdict::Fine)
     }
 
-    /// The way of the camera, where it moves.
-    fn path(&self) -> Option<CameraPath> {
-        self.frames.map(|frames| CameraPath {
-            frames,
-            degrees_per_frame: self.degrees_per_frame,
+    /// Everything that can be refused before a scene is rendered.
+    fn session<'a>(&'a self, ui: &'a Ui) -> anyhow::Result<Session<'a>> {
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        if let Some(wrong) = self.tint.filter(|s| !(0.0..=1.0).contains(s)) {
+            bail!("--tint {wrong}: a strength lies from 0 to 1");
+        }
+        may_write(&self.out.join(RESULTS), replace)?;
+        Ok(Session {
+            options: self,
+            ui,
+            replace,
+            context: self.view.context()?,
+            background: self.view.background()?,
+            methods: self.requested()?,
+            gpu: if self.gpu { Some(Gpu::shared()?) } else { None },
         })
     }
 
-    fn methods(&self) -> anyhow::Result<Vec<Asked>> {
-        let mut methods = Vec::new();
-        let mut seen = HashSet::new();
-        let shader = |path: &Path| shipped::open(path).map(|mlp| MethodShader::neural(&mlp, Format::WGSL));
-        for name in &self.methods {
-            let (names, demanded) = if name == "all" {
-                (all_names(), false)
-            } else {
-                (vec![name.clone()], true)
-            };
-            for name in names {
-                if seen.insert(name.clone()) {
-                    let method = parse(&name)?;
-                    let shader = match name.strip_prefix("neural:") {
-                        _ if !self.gpu => None,
-                        Some(path) => Some(shader(Path::new(path))?),
-                        None => shader_of(&name).map(Ok),
-                    };
-                    methods.push(Asked {
-                        method,
-                        demanded,
-                        skips: false,
-                        shader,
-                    });
+    fn scenes(&self) -> Vec<String> {
+        let all = || BUILT_IN.iter().map(|&name| name.to_owned()).collect();
+        let of = |name: &String| if name == "built-in" { all() } else { vec![name.clone()] };
+        self.fragments.iter().flat_map(of).collect()
+    }
+}
+
+impl Session<'_> {
+    /// Judges all methods on a scene and writes its pictures.
+    fn scene(&self, scene: &str, name: String) -> anyhow::Result<SceneResults> {
+        let list = load(self.ui, scene, &self.options.options)?;
+        refuse_outside(&list, self.context.planes)?;
+        let truth = Truth::new(&list, self.background);
+        let mut remarks = String::new();
+        let mut sheet = self.sheet(&name, &truth, &mut remarks)?;
+        let judged = self.judge(scene, &name, &truth)?;
+        let tinted = match self.options.tint {
+            Some(strength) if truth.image().is_ok() => Some((Tinted::new(&list, strength, self.background)?, strength)),
+            _ => None,
+        };
+        let mut refused = Vec::new();
+        let mut rows: Vec<Row> = Vec::new();
+        let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
+        for (requested, judged) in self.methods.iter().zip(judged) {
+            let method = &*requested.method;
+            let mut judged = match judged {
+                Ok(judged) => judged,
+                Err(why) => {
+                    remarks += &format!("not applied, {why}\n");
+                    refused.push((method.name(), why.to_string(), requested.demanded));
+                    continue;
                 }
+            };
+            let stem = free_stem(&method.name(), &mut stems);
+            write_method(&self.folder(&name), &stem, self.replace, &judged)?;
+            let drawn = self.draw(&name, &stem, &truth, requested, &judged, &mut remarks)?;
+            judged.result.picture = judged.picture.is_some().then_some(stem);
+            if let Some(sheet) = &mut sheet {
+                sheet.add(&judged)?;
             }
-        }
-        for path in &self.model {
-            let method = Box::new(Neural::new(shipped::open(path)?).with_skip(self.skip.into()));
-            methods.push(Asked {
-                method,
-                demanded: true,
-                skips: true,
-                shader: self.gpu.then(|| shader(path)).transpose()?,
+            rows.push(Row {
+                cpu: judged.result,
+                gpu: drawn,
+                tinted: match &tinted {
+                    Some((glass, s)) => Some(glass.judge(method, self.context, *s, self.background)?),
+                    None => None,
+                },
+                demanded: requested.demanded,
             });
-            let after = Neural::new(shipped::open(path)?)
-                .with_skip(self.skip.into())
-                .with_frame(MomentFrame::Pixel);
-            // A network whose moments are not of logarithmic depth has no other frame.
-            if self.prepass && after.frame() == MomentFrame::Pixel {
-                methods.push(Asked {
-                    method: Box::new(after),
-                    demanded: true,
-                    skips: true,
-                    shader: None,
-                });
+        }
+        self.add_changes(scene, &mut rows)?;
+        rows.sort_by(|a, b| by_error(&a.cpu, &b.cpu));
+        if let Some(sheet) = sheet.filter(|_| !rows.is_empty()) {
+            sheet.write(&self.folder(&name).join("sheet.png"), self.replace)?;
+        }
+        Ok(SceneResults {
+            name,
+            list,
+            rows,
+            refused,
+            remarks,
+        })
+    }
+
+    fn folder(&self, scene: &str) -> PathBuf {
+        self.options.out.join(scene)
+    }
+
+    /// Writes the exact image and begins the contact sheet; errors of T need neither.
+    fn sheet(&self, name: &str, truth: &Truth<'_>, remarks: &mut String) -> anyhow::Result<Option<Sheet>> {
+        match truth.image() {
+            Ok(image) => {
+                write_image(&self.folder(name).join("truth.png"), self.replace, image)?;
+                Ok(Some(Sheet::new(name, truth.list(), image)))
+            }
+            Err(why) => {
+                *remarks += &format!("no pictures, {why}\n");
+                Ok(None)
             }
         }
-        Ok(methods)
+    }
+
+    /// One result a method, in their order: on the list as it stands, and of those that depend on the order in random
+    /// ones.
+    fn judge(&self, scene: &str, name: &str, truth: &Truth<'_>) -> anyhow::Result<Vec<Result<Judged, EvaluateError>>> {
+        let in_orders = |method: &dyn Method| self.options.orders > 0 && method.capabilities().order_dependent;
+        let progress = self.ui.progress("evaluate", self.methods.len() as u64);
+        let mut judged: Vec<Option<Result<Judged, EvaluateError>>> = Vec::new();
+        for (index, Requested { method, .. }) in self.methods.iter().enumerate() {
+            progress.set(index as u64, format!("{name}: {}", method.name()));
+            judged.push((!in_orders(&**method)).then(|| truth.judge(&**method, self.context)));
+        }
+        progress.set(self.methods.len() as u64, format!("{name}: random orders"));
+        let dependent: Vec<&dyn Method> = self
+            .methods
+            .iter()
+            .map(|r| &*r.method)
+            .filter(|m| in_orders(*m))
+            .collect();
+        let orders = self.orders(scene, truth.list());
+        let mut in_orders = judge_in_orders(&dependent, orders, self.context, self.background)?.into_iter();
+        progress.finish();
+        let filled = judged.into_iter().map(|judged| judged.or_else(|| in_orders.next()));
+        Ok(filled.map(|judged| judged.expect("one result a method")).collect())
+    }
+
+    /// Random orders of fragments, then of whole objects where the scene is rendered here.
+    fn orders<'b>(
+        &'b self,
+        scene: &'b str,
+        list: &'b FragmentList,
+    ) -> impl Iterator<Item = anyhow::Result<OrderedList>> + 'b {
+        let objects = (1..=self.options.orders).filter_map(move |seed| {
+            let list = load_in_random_order(scene, &self.options.options, seed).transpose()?;
+            Some(list.map(|list| OrderedList {
+                shuffled: Shuffled::Objects,
+                seed,
+                list,
+            }))
+        });
+        fragment_orders(list, self.options.orders).map(Ok).chain(objects)
+    }
+
+    /// Draws a method on the GPU where that was asked for and there is a shader; why not is a remark.
+    fn draw(
+        &self,
+        scene: &str,
+        stem: &str,
+        truth: &Truth<'_>,
+        requested: &Requested,
+        judged: &Judged,
+        remarks: &mut String,
+    ) -> anyhow::Result<Option<GpuResult>> {
+        let (Some(gpu), Some((image, _))) = (self.gpu, &judged.picture) else {
+            return Ok(None);
+        };
+        let drawn = match &requested.shader {
+            Some(Ok(shader)) => {
+                let skip = if requested.skips {
+                    self.options.skip.into()
+                } else {
+                    Skip::Exact
+                };
+                let storage = self.options.gpu_storage.into();
+                gpu::judge(gpu, shader, truth, self.context, storage, skip, image).map_err(|e| e.to_string())
+            }
+            Some(Err(why)) => Err(why.to_string()),
+            None => Err(format!("{} has no shader", requested.method.name())),
+        };
+        match drawn {
+            Ok(drawn) => {
+                let folder = self.folder(scene);
+                write_image(&folder.join(format!("{stem}.gpu.png")), self.replace, &drawn.image)?;
+                write_flip(&folder.join(format!("{stem}.gpu.flip.png")), self.replace, &drawn.map)?;
+                Ok(Some(drawn.result))
+            }
+            Err(why) => {
+                *remarks += &format!("not on the GPU, {why}\n");
+                Ok(None)
+            }
+        }
+    }
+
+    /// What a person reads about a scene.
+    fn text(&self, found: &SceneResults) -> String {
+        let heading = format!(
+            "{}: {} fragments, at most {} in a pixel{}\n",
+            found.name,
+            found.list.len(),
+            found.list.depth_complexity(),
+            self.moving(&found.rows)
+        );
+        let on_gpu = self.gpu.map_or_else(String::new, |gpu| {
+            tables::gpu_rows(gpu, self.options.gpu_storage.into(), &found.rows)
+        });
+        let tinted = tables::tinted_rows(&found.rows);
+        format!(
+            "{heading}{}{on_gpu}{tinted}{}\n",
+            tables::rows(&found.rows),
+            found.remarks
+        )
+    }
+
+    /// Writes the numbers of all scenes, and of several scenes a table and a chart.
+    fn finish(&self, scenes: &[SceneResults]) -> anyhow::Result<()> {
+        let write = |name: &str, text: &str| {
+            write_atomically(&self.options.out.join(name), self.replace, |w| {
+                w.write_all(text.as_bytes())
+            })
+        };
+        let report = self
+            .ui
+            .report("evaluate", scenes.iter().flat_map(|s| self.json(s)).collect());
+        let json = serde_json::to_string_pretty(&report)? + "\n";
+        write(RESULTS, &json)?;
+        let mut comparison = String::new();
+        if scenes.len() > 1 {
+            comparison = tables::comparison(scenes);
+            write("comparison.md", &comparison)?;
+            if let Some(chart) = chart::chart(scenes) {
+                write("comparison.svg", &chart)?;
+            }
+        }
+        if self.ui.json() {
+            return self.ui.print(&json);
+        }
+        self.ui.print(&format!("{comparison}{}\n", self.options.out.display()))
+    }
+
+    /// One object a method, those that could not be applied first.
+    fn json(&self, scene: &SceneResults) -> Vec<Value> {
+        let refused = scene
+            .refused
+            .iter()
+            .map(|(method, why, _)| json!({ "scene": scene.name, "method": method, "error": why }));
+        let found = scene.rows.iter().map(|row| with_scene(row, scene));
+        let with_skip: HashSet<String> = self
+            .methods
+            .iter()
+            .filter(|requested| requested.skips)
+            .map(|requested| requested.method.name())
+            .collect();
+        let skip = Skip::from(self.options.skip);
+        let mut results: Vec<Value> = refused.chain(found).collect();
+        for result in results.iter_mut().filter_map(Value::as_object_mut) {
+            let method = result.get("method").and_then(Value::as_str);
+            if method.is_some_and(|name| with_skip.contains(name)) {
+                result.insert("skip".to_owned(), json!(skip));
+            }
+        }
+        results
     }
 }
 
-/// Changes of methods from frame to frame, as the camera moves about a scene.
-fn changes(
-    name: &str,
-    options: &SceneOptions,
-    path: CameraPath,
-    methods: &[&dyn Method],
-    (context, background): (Context, [f64; 3]),
-    ui: &Ui,
-) -> anyhow::Result<Vec<Option<OverTime>>> {
-    let scene = moving_scene(name)?;
-    let options = options.for_scene();
-    let progress = ui.progress("frames", path.frames.into());
-    let frame = |i: u32| {
-        progress.set(i.into(), name);
-        Ok::<_, anyhow::Error>(path.build(&scene, &options, i)?)
-    };
-    let changes = over_time::measure(path.frames, frame, methods, context, background)?;
-    progress.finish();
-    Ok(changes)
-}
-
-/// What the heading of a table says of frames.
-fn moving(path: Option<CameraPath>, found: &[(MethodResult, Option<GpuResult>)]) -> String {
-    let truth = found.iter().find_map(|(r, _)| r.over_time?.truth_change_mse);
-    match (path, truth) {
-        (Some(path), Some(truth)) => format!(
-            "; {} frames, {} degrees a frame, the truth itself changes by {:.2e} (mean square)",
-            path.frames, path.degrees_per_frame, truth
-        ),
-        _ => String::new(),
-    }
+/// A stem for a method's files that no other method has, which is then taken.
+fn free_stem(method: &str, taken: &mut HashSet<String>) -> String {
+    let stem = file_stem(method);
+    let numbered = (2..).map(|n| format!("{stem}-{n}"));
+    let free = std::iter::once(stem.clone())
+        .chain(numbered)
+        .find(|s| !taken.contains(s));
+    let free = free.expect("there are more numbers than methods");
+    taken.insert(free.clone());
+    free
 }
 
 /// A name for each scene: its file's stem, told apart by numbers where two have one.
@@ -373,14 +462,17 @@ fn scene_names(fragments: &[String]) -> Vec<String> {
 }
 
 /// A result with what it is of.
-fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList, gpu: Option<&GpuResult>) -> Value {
-    let mut value = serde_json::to_value(result).expect("results are plain data");
+fn with_scene(row: &Row, scene: &SceneResults) -> Value {
+    let mut value = serde_json::to_value(&row.cpu).expect("results are plain data");
     if let Some(object) = value.as_object_mut() {
-        object.insert("scene".to_owned(), scene.into());
-        object.insert("pixels".to_owned(), list.pixels().into());
-        object.insert("fragments".to_owned(), list.len().into());
-        object.insert("depth_complexity".to_owned(), list.depth_complexity().into());
-        if let Some(gpu) = gpu {
+        object.insert("scene".to_owned(), scene.name.clone().into());
+        object.insert("pixels".to_owned(), scene.list.pixels().into());
+        object.insert("fragments".to_owned(), scene.list.len().into());
+        object.insert("depth_complexity".to_owned(), scene.list.depth_complexity().into());
+        if let Some(tinted) = &row.tinted {
+            object.insert("tinted".to_owned(), json!(tinted));
+        }
+        if let Some(gpu) = &row.gpu {
             object.insert(
                 "gpu".to_owned(),
                 serde_json::to_value(gpu).expect("results are plain data"),
@@ -388,98 +480,6 @@ fn with_scene(result: &MethodResult, scene: &str, list: &FragmentList, gpu: Opti
         }
     }
     value
-}
-
-/// Results as a table, in the order in which they stand.
-fn rows(results: &[(MethodResult, Option<GpuResult>)]) -> String {
-    let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| match x {
-        None => "-".to_owned(),
-        Some(x) if x.is_nan() => "NaN".to_owned(),
-        Some(x) => text(x),
-    };
-    let head = [
-        "method",
-        "image MSE",
-        "PSNR dB",
-        "FLIP",
-        "T-MSE",
-        "worst T",
-        "non-finite",
-        "bits/pixel",
-        "seconds",
-    ];
-    let mut lines = vec![head.map(str::to_owned).to_vec()];
-    let moving = results.iter().any(|(r, _)| r.over_time.is_some());
-    if moving {
-        lines[0].extend(["frame change", "worst change"].map(str::to_owned));
-    }
-    for (r, _) in results {
-        let mut line = vec![
-            r.method.clone(),
-            number(r.image_mse, &|x| format!("{x:.2e}")),
-            number(r.image_psnr_db, &|x| format!("{x:.1}")),
-            number(r.flip_mean, &|x| format!("{x:.4}")),
-            number(r.transmittance_mse, &|x| format!("{x:.2e}")),
-            number(r.transmittance_worst_error, &|x| format!("{x:.3}")),
-            r.nonfinite.to_string(),
-            if r.bits_per_pixel == u32::MAX {
-                "unbounded".to_owned()
-            } else {
-                r.bits_per_pixel.to_string()
-            },
-            format!("{:.3}", r.seconds),
-        ];
-        if moving {
-            let change = r.over_time;
-            line.push(number(change.and_then(|c| c.frame_change_mse), &|x| format!("{x:.2e}")));
-            line.push(number(change.and_then(|c| c.frame_change_worst), &|x| {
-                format!("{x:.4}")
-            }));
-        }
-        lines.push(line);
-    }
-    table(&lines)
-}
-
-/// What the GPU drew, as a table under its name.
-fn gpu_rows(gpu: &Gpu, storage: TargetPrecision, results: &[(MethodResult, Option<GpuResult>)]) -> String {
-    if results.iter().all(|r| r.1.is_none()) {
-        return String::new();
-    }
-    let milliseconds = |s: f64| format!("{:.2}", s * 1e3);
-    let head = [
-        "method",
-        "99.9 % within",
-        "worst",
-        "FLIP to CPU",
-        "image MSE",
-        "FLIP",
-        "non-finite",
-        "pass 1 ms",
-        "pass 2 ms",
-        "resolve ms",
-    ];
-    let mut lines = vec![head.map(str::to_owned).to_vec()];
-    for r in results.iter().filter_map(|r| r.1.as_ref()) {
-        lines.push(vec![
-            r.method.clone(),
-            format!("{:.1e}", r.channel_difference_999),
-            format!("{:.1e}", r.channel_difference_worst),
-            format!("{:.1e}", r.flip_mean_to_cpu),
-            format!("{:.2e}", r.image_mse),
-            format!("{:.4}", r.flip_mean),
-            r.image_nonfinite.to_string(),
-            milliseconds(r.seconds_accumulate),
-            milliseconds(r.seconds_weights),
-            milliseconds(r.seconds_resolve),
-        ]);
-    }
-    let how = if gpu::is_drawn(gpu, storage) {
-        format!("render passes, storage {}", storage.name())
-    } else {
-        "compute passes, since it cannot blend into f32 targets".to_owned()
-    };
-    format!("\n{}, {how}, against the images above:\n{}", gpu.name(), table(&lines))
 }
 
 #[cfg(test)]

@@ -32,7 +32,12 @@ examples! {
         "nmt predict small --fragments data/sample.npz --out target/T-visible.npy --skip visible";
     EVALUATE:
         "nmt evaluate --fragments hair smoke --methods moment-power-4 --model small --out target/eval"
-        "nmt evaluate --fragments data/sample.npz --methods all --out target/sample-methods";
+        "nmt evaluate --fragments data/sample.npz --methods all --out target/sample-methods"
+        "nmt evaluate --fragments built-in --size 128x128 --model recommended --out target/comparison"
+        "nmt evaluate --fragments spheres --shadows --out target/shadows";
+    METHODS:
+        "nmt methods"
+        "nmt methods --markdown";
     SCENE:
         "nmt scene hair --size 640x480 --out target/hair.npz"
         "nmt scene configs/scenes/house.toml --out target/house.npz"

@@ -9,6 +9,7 @@ mod export;
 mod generate;
 mod import;
 mod interrupt;
+mod methods;
 mod predict;
 mod profile;
 mod report;
@@ -73,6 +74,9 @@ enum Command {
     /// Compare transparency methods on scenes: errors, images, contact sheets.
     #[command(after_help = examples::EVALUATE)]
     Evaluate(evaluate::Evaluate),
+    /// List transparency methods: memory, passes, needs and sources.
+    #[command(after_help = examples::METHODS)]
+    Methods(methods::Methods),
     /// Render a scene, or convert a deep image, to a fragment list.
     #[command(after_help = examples::SCENE)]
     Scene(scene::Scene),
@@ -127,6 +131,7 @@ impl Command {
             Self::Profile(_) => "profile",
             Self::Report(_) => "report",
             Self::Import(_) => "import",
+            Self::Methods(_) => "methods",
             Self::Completions(_) => "completions",
             Self::Man(_) => "man",
             Self::Schema(_) => "schema",
@@ -213,6 +218,7 @@ pub fn main() -> ExitCode {
         Command::Check(c) => c.execute(&ui),
         Command::Predict(c) => c.execute(&ui),
         Command::Evaluate(c) => c.execute(&ui),
+        Command::Methods(c) => c.execute(&ui),
         Command::Scene(c) => c.execute(&ui),
         Command::Bench(c) => c.execute(&ui),
         Command::Stress(c) => c.execute(&ui),

@@ -194,6 +194,15 @@ fn placed(path: &Path, camera: &Camera) -> String {
     )
 }
 
+/// The fragments of a scene, its objects drawn in a random order; none of a list, whose objects are not known.
+pub fn load_in_random_order(name: &str, options: &SceneOptions, seed: u64) -> anyhow::Result<Option<FragmentList>> {
+    if is_list(name.as_ref()) {
+        return Ok(None);
+    }
+    let options = options.for_scene();
+    Ok(Some(scene::build_in_random_order(&scene::open(name)?, &options, seed)?))
+}
+
 impl Scene {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };

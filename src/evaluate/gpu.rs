@@ -6,11 +6,13 @@ use crate::gpu::tiles::TilePasses;
 use crate::gpu::{DeviceList, Gpu, GpuError, MethodShader};
 use crate::oit::Context;
 use crate::oit::neural::Skip;
+use crate::oit::shader::Pass1;
 use crate::pixel::FragmentList;
 use crate::shader::passes::TargetPrecision;
 use serde::{Deserialize, Serialize};
 
-/// A method's image from the GPU against the CPU's, and against the exact one. In JSON, NaN and infinity become null; the count says why.
+/// A method's image from the GPU against the CPU's, and against the exact one. In JSON, NaN and infinity become null;
+/// the count says why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GpuResult {
     /// Name of the method.
@@ -21,7 +23,8 @@ pub struct GpuResult {
     pub passes: String,
     /// How sums were stored between render passes; compute passes keep f32.
     pub storage: String,
-    /// What 99.9 % of the pixels that hold fragments stay within: greatest difference of a channel from the CPU's image.
+    /// What 99.9 % of the pixels that hold fragments stay within: greatest difference of a channel from the CPU's
+    /// image.
     pub channel_difference_999: f64,
     /// Greatest difference of a channel from the CPU's image.
     pub channel_difference_worst: f64,
@@ -71,8 +74,8 @@ pub fn within_999(values: impl IntoIterator<Item = f64>) -> f64 {
     most.checked_sub(1).map_or(0.0, |last| values[last])
 }
 
-/// The image by render passes, or where the device cannot blend as the storage needs by compute passes. Drivers compile when they first draw: the second frame
-/// is timed.
+/// The image by render passes, or where the device cannot blend as the storage needs by compute passes. Drivers compile
+/// when they first draw: the second frame is timed.
 fn render(
     gpu: &Gpu,
     method: &MethodShader,
@@ -82,6 +85,12 @@ fn render(
     storage: TargetPrecision,
     skip: Skip,
 ) -> Result<Rendered, GpuError> {
+    if method.pass1 != Pass1::Added {
+        return Err(GpuError::Source {
+            label: method.name.clone(),
+            reason: "its pass 1 is no sum that could be blended; 'nmt bench methods' runs it over the list".to_owned(),
+        });
+    }
     let range = method.depth_range(list, context.planes, context.depth_range)?;
     let list = DeviceList::new(gpu, list)?;
     if !draws(gpu, method, storage) {
@@ -104,7 +113,8 @@ pub fn is_drawn(gpu: &Gpu, storage: TargetPrecision) -> bool {
     gpu.blends_f32() || !storage.blends_f32()
 }
 
-/// Draws a method on the GPU and compares its image with the CPU's and the exact one. A network is run for the fragments that `skip` says.
+/// Draws a method on the GPU and compares its image with the CPU's and the exact one. A network is run for the
+/// fragments that `skip` says.
 ///
 /// # Errors
 /// [`EvaluateError::Gpu`], and why the list makes no image.
@@ -200,7 +210,8 @@ mod tests {
         assert!(channel_differences(&a, &Image::new(1, 2, vec![[0.0; 3]; 2]).unwrap()).is_err());
     }
 
-    /// Pixels of at most three fragments follow from exact rules on either side, to 1e-5. Control: an image of other colours is told from it.
+    /// Pixels of at most three fragments follow from exact rules on either side, to 1e-5. Control: an image of other
+    /// colours is told from it.
     #[test]
     fn the_gpu_is_judged() {
         let Some(gpu) = gpu() else { return };

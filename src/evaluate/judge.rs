@@ -1,9 +1,10 @@
 //! Methods against the A-buffer on one fragment list.
 
 use super::bins::{self, AlphaBin, CountBin};
+use super::order::OrderResult;
 use super::{EvaluateError, FlipMap, Image, OverTime, flip, image};
 use crate::numeric::tolerance::AbsoluteError;
-use crate::oit::{self, Context, Method};
+use crate::oit::{self, Capabilities, Context, Method};
 use crate::pixel::{FragmentList, abuffer};
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
@@ -14,17 +15,19 @@ use std::time::Instant;
 pub struct MethodResult {
     /// Name of the method.
     pub method: String,
-    /// Memory of pass 1 and the composite \[bits\].
-    pub bits_per_pixel: u32,
-    /// Mean squared error of T over all fragments; none for methods whose weights are not transmittances and lists without fragments, NaN
-    /// where a weight is not finite.
+    /// Memory, passes, needs, and whether the order of the fragments counts.
+    #[serde(flatten)]
+    pub capabilities: Capabilities,
+    /// Mean squared error of T over all fragments; none for methods whose weights are not transmittances and lists
+    /// without fragments, NaN where a weight is not finite.
     pub transmittance_mse: Option<f64>,
     /// Greatest absolute error of T over all fragments; none and NaN as for the mean.
     pub transmittance_worst_error: Option<f64>,
-    /// Mean squared error of the image over all pixels and channels, unclamped; none where the list makes no image (no colours, no size,
-    /// no pixels), NaN where a channel is not finite.
+    /// Mean squared error of the image over all pixels and channels, unclamped; none where the list makes no image (no
+    /// colours, no size, no pixels), NaN where a channel is not finite.
     pub image_mse: Option<f64>,
-    /// Peak signal-to-noise ratio of the image for a peak of 1 \[dB\]; none and NaN as for the MSE, and infinite, null in JSON, where that is 0.
+    /// Peak signal-to-noise ratio of the image for a peak of 1 \[dB\]; none and NaN as for the MSE, and infinite, null
+    /// in JSON, where that is 0.
     pub image_psnr_db: Option<f64>,
     /// Mean of the FLIP map; none and NaN as for the MSE.
     pub flip_mean: Option<f64>,
@@ -41,10 +44,15 @@ pub struct MethodResult {
     /// Stem of the names of its picture files; none where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
+    /// Errors in each random order of the fragments, of which the errors above are means; none where order changes
+    /// nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orders: Option<Vec<OrderResult>>,
     /// Errors by the number of fragments in a pixel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_fragments_per_pixel: Option<Vec<CountBin>>,
-    /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without fragments.
+    /// Errors of T by the fragment's alpha; none for methods whose weights are not transmittances and lists without
+    /// fragments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by_alpha: Option<Vec<AlphaBin>>,
     /// Change from frame to frame; none where the camera stands still.
@@ -129,7 +137,7 @@ impl<'a> Truth<'a> {
             .map(|((_, image, _), exact)| (image, exact));
         let result = MethodResult {
             method: method.name(),
-            bits_per_pixel: method.bits_per_pixel(),
+            capabilities: method.capabilities(),
             transmittance_mse: stated.then(|| transmittance.mse()),
             transmittance_worst_error: stated.then(|| transmittance.worst()),
             image_mse: error.map(image::ImageError::mse),
@@ -141,6 +149,7 @@ impl<'a> Truth<'a> {
             seconds_accumulate,
             seconds_weights,
             picture: None,
+            orders: None,
             by_fragments_per_pixel: Some(bins::by_count(self.list, pair, images)),
             by_alpha: pair.map(|(weights, exact)| bins::by_alpha(self.list, weights, exact)),
             over_time: None,
@@ -173,7 +182,8 @@ pub fn evaluate(
     Ok(results)
 }
 
-/// Sorts by image MSE, or by the MSE of T where there is no image; what is NaN comes last but for what has no number at all, equals by name.
+/// Sorts by image MSE, or by the MSE of T where there is no image; what is NaN comes last but for what has no number at
+/// all, equals by name.
 pub fn sort_by_error(results: &mut [MethodResult]) {
     results.sort_by(by_error);
 }
@@ -211,8 +221,8 @@ pub(super) mod tests {
             format!("shifted:{}", self.0)
         }
 
-        fn bits_per_pixel(&self) -> u32 {
-            64
+        fn capabilities(&self) -> Capabilities {
+            Capabilities::of_sums(1, false)
         }
 
         fn accumulate<'a>(
@@ -239,8 +249,8 @@ pub(super) mod tests {
             "alike".to_owned()
         }
 
-        fn bits_per_pixel(&self) -> u32 {
-            32
+        fn capabilities(&self) -> Capabilities {
+            Capabilities::of_blending(32)
         }
 
         fn weights_are_transmittance(&self) -> bool {
@@ -323,7 +333,8 @@ pub(super) mod tests {
         assert!(nan.image_mse.unwrap().is_nan() && nan.flip_mean.unwrap().is_nan() && nan.image_nonfinite.unwrap() > 0);
     }
 
-    /// The bins of a method are of the list's own pixels and fragments; their weighted means are the whole's errors, to 1e-12 of them.
+    /// The bins of a method are of the list's own pixels and fragments; their weighted means are the whole's errors, to
+    /// 1e-12 of them.
     #[test]
     fn bins_are_of_the_whole_list() {
         let list = colored_list(20, 15);
@@ -466,7 +477,7 @@ pub(super) mod tests {
     fn json_has_units_in_its_keys_and_null_for_nan() {
         let result = MethodResult {
             method: "neural:m".to_owned(),
-            bits_per_pixel: 352,
+            capabilities: Capabilities::of_sums(5, true),
             transmittance_mse: Some(0.25),
             transmittance_worst_error: Some(f64::NAN),
             image_mse: Some(0.5),
@@ -478,6 +489,13 @@ pub(super) mod tests {
             seconds_accumulate: 0.5,
             seconds_weights: 0.25,
             picture: Some("neural-m".to_owned()),
+            orders: Some(vec![OrderResult {
+                shuffled: crate::evaluate::Shuffled::Objects,
+                seed: 3,
+                transmittance_mse: Some(0.25),
+                image_mse: Some(0.5),
+                flip_mean: None,
+            }]),
             by_fragments_per_pixel: Some(vec![CountBin {
                 least_fragments_per_pixel: 5,
                 most_fragments_per_pixel: 8,

@@ -5,14 +5,19 @@ pub mod flip;
 pub mod gpu;
 pub mod image;
 pub mod judge;
+pub mod order;
 pub mod over_time;
 pub mod picture;
+pub mod shadow;
+pub mod tinted;
 
 pub use bins::{AlphaBin, CountBin};
 pub use flip::{FlipMap, flip};
 pub use image::Image;
 pub use judge::{Judged, MethodResult, Truth, evaluate, sort_by_error};
+pub use order::{OrderResult, OrderedList, Shuffled};
 pub use over_time::OverTime;
+pub use tinted::{Tinted, TintedResult};
 
 use crate::numeric::file::FileError;
 use crate::numeric::tolerance::AbsoluteError;

@@ -158,8 +158,8 @@ mod tests {
             "flickering".to_owned()
         }
 
-        fn bits_per_pixel(&self) -> u32 {
-            1
+        fn capabilities(&self) -> crate::oit::Capabilities {
+            crate::oit::Capabilities::of_sums(1, false)
         }
 
         fn accumulate<'a>(

@@ -60,6 +60,34 @@ fn single(name: &str) -> String {
     }
 }
 
+/// Twins whose pass 1 is no sum: 99.9 % of T within 1e-4 of the CPU's f64, all within 1e-2, where a fragment lies beside
+/// the border of a cell. Control: the answers of the twin before it.
+#[test]
+fn inserted_twins_answer_as_on_the_cpu() {
+    let Some(gpu) = gpu() else { return };
+    let list = random(3000);
+    let mut before: Option<Vec<f64>> = None;
+    for name in [
+        "wavelet:2",
+        "wavelet:3",
+        "wavelet:3+own",
+        "wavelet:4+own",
+        "hybrid:2",
+        "hybrid:4",
+        "hybrid:6",
+    ] {
+        let (found, reference) = (on_gpu(gpu, name, &list), on_cpu(name, &list));
+        let d = apart(&found, &reference, |_| 1.0);
+        let (most, worst) = (d[d.len() * 999 / 1000], d[d.len() - 1]);
+        println!("{name}: 99.9 % within {most:.1e}, all within {worst:.1e}");
+        assert!(most <= 1e-4 && worst <= 1e-2, "{name}: {most:e} {worst:e}");
+        if let Some(before) = before.replace(reference) {
+            let d = apart(&found, &before, |_| 1.0);
+            assert!(d[d.len() / 2] > 1e-4, "{name} as the method before it");
+        }
+    }
+}
+
 /// T of the twins of moment-based methods: 99 % within 1e-3 of the CPU's on the same f32 moments, all finite, and the
 /// same T-MSE to 1 %. What lies further apart are fragments where the moments are nearly those of fewer atoms, which
 /// rounding decides. Control: the answers of another number of moments.

@@ -4,6 +4,7 @@
 pub mod complex;
 pub mod digest;
 pub mod doubles;
+pub mod exact_sum;
 pub mod file;
 pub mod lanes;
 pub mod npy;

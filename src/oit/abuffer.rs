@@ -1,5 +1,6 @@
 //! The A-buffer: every fragment kept and sorted. What all other methods approximate.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
 use crate::pixel::{FragmentList, Pixel, abuffer};
@@ -18,6 +19,7 @@ pub struct ABuffer;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Carpenter 1984; every fragment kept and sorted",
     names: |head| vec![head.to_owned()],
     build,
 };
@@ -33,9 +35,19 @@ impl Method for ABuffer {
         NAME.to_owned()
     }
 
-    /// It keeps every fragment, so that no number of bits suffices for all pixels: the greatest `u32`.
-    fn bits_per_pixel(&self) -> u32 {
-        u32::MAX
+    /// It keeps every fragment, so that no number of bits suffices for all pixels: a list of them, linked by atomics,
+    /// drawn once.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: None,
+            colour_bits_per_pixel: 0,
+            geometry_passes: 1,
+            needs: Needs {
+                atomics: true,
+                ..Needs::NONE
+            },
+            order_dependent: false,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

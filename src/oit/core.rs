@@ -1,5 +1,6 @@
 //! Core and tail without a network: single fragments of a pixel, and the sums of all others shared out by the beta law.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, MethodShader};
 use crate::features::core::CoreSet;
@@ -12,9 +13,23 @@ use crate::pixel::{FragmentList, LogWarp, ViewZ};
 pub const ENTRY: Entry = Entry {
     head: "core",
     pattern: "core:HEAVY",
+    source: "ours, after Maule, Comba, Torchelsen, Bastos, I3D 2013",
     names,
     build,
 };
+
+/// A method that keeps so many bits of sums, ends and single fragments, the latter by a chain of atomics.
+pub(super) const fn capabilities(bits: u32) -> Capabilities {
+    let of_sums = Capabilities::of_sums(1, false);
+    Capabilities {
+        bits_per_pixel: Some(bits),
+        needs: Needs {
+            atomics: true,
+            ..of_sums.needs
+        },
+        ..of_sums
+    }
+}
 
 /// Moments: the beta law has a mean and a spread.
 const MOMENTS: usize = 2;
@@ -57,13 +72,12 @@ impl Method for Core {
         format!("core:{}", self.set.heavy)
     }
 
-    fn shader(&self) -> Option<MethodShader> {
-        Some(MethodShader::of_core(self.name(), self.set))
+    fn capabilities(&self) -> Capabilities {
+        capabilities(self.set.bits())
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        // RGBA32F colour and weight sum besides what pass 1 keeps.
-        128 + self.set.bits()
+    fn shader(&self) -> Option<MethodShader> {
+        Some(MethodShader::of_core(self.name(), self.set))
     }
 
     fn accumulate<'a>(

@@ -1,5 +1,6 @@
 //! Deep weighted blended transparency: weighted blended, its weight function a small network.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError, neural::Neural};
 use crate::features::FeatureSet;
@@ -10,7 +11,12 @@ use std::path::Path;
 /// Its name on the command line.
 pub const NAME: &str = "deep-weighted-blended";
 
-pub use crate::features::deep_weighted_blended::BITS_PER_PIXEL;
+/// DWB22 Sec. 3.3: sum of alpha and number of fragments in RG16F, what is left of the background in R16F.
+pub const CAPABILITIES: Capabilities = Capabilities {
+    bits_per_pixel: Some(48),
+    needs: Needs::NONE,
+    ..Capabilities::of_sums(3, false)
+};
 
 /// The network was made for other features.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -20,14 +26,15 @@ pub struct WrongFeatures {
     found: FeatureSet,
 }
 
-/// A network that estimates the front-to-back factor of a fragment from its depth and its pixel's sum of alpha and number of fragments; the factor
-/// is the weight: C = Σ w a C/Σ w a · (1 − e^−b0) + e^−b0 C_bg.
+/// A network that estimates the front-to-back factor of a fragment from its depth and its pixel's sum of alpha and
+/// number of fragments; the factor is the weight: C = Σ w a C/Σ w a · (1 − e^−b0) + e^−b0 C_bg.
 ///
-/// DWB22's text gives the composite of weighted blended; its listing multiplies by the weight once more, which is not followed. The activation of
-/// its output is not stated; here it is a sigmoid, which keeps the weight in (0, 1).
+/// DWB22's text gives the composite of weighted blended; its listing multiplies by the weight once more, which is not
+/// followed. The activation of its output is not stated; here it is a sigmoid, which keeps the weight in (0, 1).
 ///
 /// # Source
-/// DWB22 Sec. 3.3: 3-10-8-1, ReLU, trained on Adst of Eq. 3.3 by Adam at 10^−4 on the mean squared error, batch 128, 150 epochs.
+/// DWB22 Sec. 3.3: 3-10-8-1, ReLU, trained on Adst of Eq. 3.3 by Adam at 10^−4 on the mean squared error, batch 128,
+/// 150 epochs.
 pub struct DeepWeightedBlended {
     network: Neural,
 }
@@ -36,6 +43,7 @@ pub struct DeepWeightedBlended {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Papakostas, MSc thesis, Ioannina 2022",
     names: |head| vec![head.to_owned()],
     build,
 };
@@ -78,8 +86,8 @@ impl Method for DeepWeightedBlended {
         NAME.to_owned()
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        BITS_PER_PIXEL
+    fn capabilities(&self) -> Capabilities {
+        CAPABILITIES
     }
 
     fn accumulate<'a>(
@@ -213,7 +221,8 @@ mod tests {
         );
     }
 
-    /// A tiny training, from lists and from random pixels, beats the best constant, and its image that of a constant weight on pixels it never saw.
+    /// A tiny training, from lists and from random pixels, beats the best constant, and its image that of a constant
+    /// weight on pixels it never saw.
     #[test]
     fn our_own_toolchain_trains_it() {
         let Config {
@@ -244,7 +253,13 @@ mod tests {
             assert_eq!(mlp.shape(), "3-10-8-1");
             let loss = mlp.provenance.validation_loss.unwrap();
             assert!(loss < 0.5 * variance, "{loss} of {variance}");
-            let constant = image_mse(&WeightedBlended { weight: Weight::Dwb22 }, &other);
+            let constant = image_mse(
+                &WeightedBlended {
+                    weight: Weight::Dwb22,
+                    ..WeightedBlended::default()
+                },
+                &other,
+            );
             let ours = image_mse(&DeepWeightedBlended::new(mlp).unwrap(), &other);
             assert!(ours < constant, "{ours} against {constant}");
         }

@@ -1,5 +1,6 @@
 //! Depth peeling: the nearest layers exactly, and nothing of what lies behind them.
 
+use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::{Layered, blend};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -8,13 +9,15 @@ use crate::pixel::{FragmentList, abuffer};
 /// The stem of its name on the command line, `depth-peeling:K`.
 pub const NAME: &str = "depth-peeling";
 
-/// K passes, each of which peels the nearest fragment that is left and blends it from front to back; the rest is dropped, and the background shows
-/// through the peeled layers alone. Of tied fragments the first of the input is peeled first, and none is lost.
+/// K passes, each of which peels the nearest fragment that is left and blends it from front to back; the rest is
+/// dropped, and the background shows through the peeled layers alone. Of tied fragments the first of the input is
+/// peeled first, and none is lost.
 ///
 /// Weights are the transmittance through the peeled layers, 0 for what is dropped.
 ///
 /// # Source
-/// Everitt, *Interactive Order-Independent Transparency*, NVIDIA 2001; blending from front to back as DWB22 Eq. 3.2–3.3.
+/// Everitt, *Interactive Order-Independent Transparency*, NVIDIA 2001; blending from front to back as DWB22 Eq.
+/// 3.2–3.3.
 #[derive(Debug, Clone, Copy)]
 pub struct DepthPeeling {
     /// Passes, K.
@@ -25,6 +28,7 @@ pub struct DepthPeeling {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "depth-peeling:K",
+    source: "Everitt, NVIDIA 2001",
     names,
     build,
 };
@@ -42,9 +46,15 @@ impl Method for DepthPeeling {
         format!("{NAME}:{}", self.passes)
     }
 
-    /// Two f32 depth buffers and a colour in RGBA16F, however many passes.
-    fn bits_per_pixel(&self) -> u32 {
-        128
+    /// Two f32 depth buffers, however many passes; layers are blended into one target.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(64),
+            colour_bits_per_pixel: COLOUR_BITS,
+            geometry_passes: self.passes as u32,
+            needs: Needs::NONE,
+            order_dependent: false,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

@@ -1,5 +1,6 @@
 //! Dual depth peeling: the nearest and the farthest layers exactly, and nothing of what lies between them.
 
+use super::capabilities::{COLOUR_BITS, Capabilities, Needs};
 use super::layered::{Layered, blend};
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -8,12 +9,12 @@ use crate::pixel::{FragmentList, abuffer};
 /// The stem of its name on the command line, `dual-depth-peeling:K`.
 pub const NAME: &str = "dual-depth-peeling";
 
-/// K passes, each of which peels the nearest and the farthest fragment that are left; after K passes what lies between is dropped. Front layers are
-/// blended from front to back, back layers from back to front, and the former over the latter over the background. Of tied fragments the first of
-/// the input counts as the nearer.
+/// K passes, each of which peels the nearest and the farthest fragment that are left; after K passes what lies between
+/// is dropped. Front layers are blended from front to back, back layers from back to front, and the former over the
+/// latter over the background. Of tied fragments the first of the input counts as the nearer.
 ///
-/// Weights are the transmittance through the peeled layers, 0 for what is dropped. The pass that finds the first depth range peels nothing and is
-/// not counted.
+/// Weights are the transmittance through the peeled layers, 0 for what is dropped. The pass that finds the first depth
+/// range peels nothing and is not counted.
 ///
 /// # Source
 /// Bavoil, Myers, *Order Independent Transparency with Dual Depth Peeling*, NVIDIA 2008; DWB22 Sec. 3.1.
@@ -27,6 +28,7 @@ pub struct DualDepthPeeling {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "dual-depth-peeling:K",
+    source: "Bavoil, Myers, NVIDIA 2008",
     names,
     build,
 };
@@ -46,9 +48,16 @@ impl Method for DualDepthPeeling {
         format!("{NAME}:{}", self.passes)
     }
 
-    /// Two depth ranges in RG32F, two front colours and one back colour in RGBA16F, however many passes.
-    fn bits_per_pixel(&self) -> u32 {
-        320
+    /// Two depth ranges in RG32F, two targets of front colours and one of back colours, however many passes; one pass
+    /// more finds the first range.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(128),
+            colour_bits_per_pixel: 3 * COLOUR_BITS,
+            geometry_passes: self.passes as u32 + 1,
+            needs: Needs::F32_BLENDING,
+            order_dependent: false,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {

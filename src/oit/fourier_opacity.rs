@@ -1,6 +1,7 @@
 //! Fourier opacity mapping.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::registry::{Arguments, Entry, ParseError};
 use crate::pixel::MomentDepth;
@@ -13,6 +14,7 @@ const MOST: usize = 32;
 pub const ENTRY: Entry = Entry {
     head: "fourier-opacity",
     pattern: "fourier-opacity:HARMONICS[+own]",
+    source: "Jansen, Bavoil, I3D 2010",
     names,
     build,
 };
@@ -34,7 +36,8 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     }
 }
 
-/// The density of absorbance over depth as a truncated Fourier series, integrated up to a depth; an integral that rings below nothing is nothing.
+/// The density of absorbance over depth as a truncated Fourier series, integrated up to a depth; an integral that rings
+/// below nothing is nothing.
 ///
 /// # Source
 /// J. Jansen, L. Bavoil, *Fourier opacity mapping*, I3D 2010.
@@ -78,9 +81,9 @@ impl MomentBased for FourierOpacity {
         format!("fourier-opacity:{}", self.harmonics)
     }
 
-    /// One number and two a harmonic in half precision (MKKP18 Table 2: 112 and 240 bits); here they are not rounded.
-    fn moment_bits(&self) -> u32 {
-        16 * (2 * self.harmonics as u32 + 1)
+    /// One number and two a harmonic, in f32; here they are not rounded.
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities::of_sums(2 * self.harmonics as u32 + 1, own)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Series {

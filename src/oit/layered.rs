@@ -1,6 +1,7 @@
 //! What methods have in common that blend layers from front to back and let a known part of the background through.
 
 use super::Accumulated;
+use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{FragmentList, Pixel, absorbance};
 use rayon::prelude::*;
 
@@ -12,8 +13,8 @@ pub struct Layered<'a> {
 }
 
 impl<'a> Layered<'a> {
-    /// Runs `f` for every non-empty pixel on all cores: it fills in the weights of the pixel's fragments and returns what the pixel lets through of
-    /// the background. `S` is memory that it may use again from pixel to pixel.
+    /// Runs `f` for every non-empty pixel on all cores: it fills in the weights of the pixel's fragments and returns
+    /// what the pixel lets through of the background. `S` is memory that it may use again from pixel to pixel.
     pub fn of<S: Default>(
         list: &'a FragmentList,
         f: impl Fn(&mut S, Pixel<'_>, &mut [f64]) -> f64 + Send + Sync,
@@ -48,23 +49,25 @@ impl Accumulated for Layered<'_> {
     }
 }
 
-/// Colour of a pixel whose weights are taken as they are: C = Σ a w C + t C_bg, t what the pixel lets through of the background.
+/// Colour of a pixel whose weights are taken as they are: C = Σ a w C + t C_bg, t what the pixel lets through of the
+/// background.
 ///
 /// # Panics
 /// If the pixel has fragments and no colours.
 pub fn composite_over(pixel: Pixel<'_>, weights: &[f64], behind: f64, background: [f64; 3]) -> [f64; 3] {
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
-    let mut sum = background.map(|c| behind * c);
+    let mut sum = [ExactSum::default(); 3];
     for ((&a, c), &w) in pixel.alpha.iter().zip(color).zip(weights) {
         for (s, &c) in sum.iter_mut().zip(c) {
-            *s += f64::from(a) * w * f64::from(c);
+            s.add(f64::from(a) * w * f64::from(c));
         }
     }
-    sum
+    std::array::from_fn(|c| behind * background[c] + sum[c].value())
 }
 
-/// Blends some fragments of a pixel from front to back as if there were no others, which get weight 0; returns what they let through.
+/// Blends some fragments of a pixel from front to back as if there were no others, which get weight 0; returns what
+/// they let through.
 pub fn blend<'i>(pixel: Pixel<'_>, front_to_back: impl IntoIterator<Item = &'i u32>, out: &mut [f64]) -> f64 {
     out.fill(0.0);
     let mut in_front = 0.0;

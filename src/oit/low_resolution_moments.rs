@@ -1,6 +1,7 @@
 //! Sharpe's moment transparency with moments at a fraction of the resolution.
 
-use super::moment_based::{COLOUR_BITS, ENDS_BITS, NOTHING_ELSE, Sample, ends, exact, samples, warp};
+use super::capabilities::{Capabilities, sums, targets};
+use super::moment_based::{NOTHING_ELSE, Sample, ends, exact, samples, sort, warp};
 use super::moment_power::add;
 use super::moment_transparency::{BIAS, unit, unit_depth};
 use super::registry::{Arguments, Entry, ParseError};
@@ -13,6 +14,7 @@ use rayon::prelude::*;
 pub const ENTRY: Entry = Entry {
     head: "low-resolution-moments",
     pattern: "low-resolution-moments:2|4|8[+own]",
+    source: "Sharpe, HPG 2018",
     names,
     build,
 };
@@ -39,8 +41,9 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 
 /// Four moments of blocks of N × N pixels, looked up with bilinear filtering.
 ///
-/// A block holds the mean of the moments of its pixels. Sha18 draws the low-resolution pass against the *greatest* opaque depth of the block, so that no fragment that some
-/// pixel of it shows is lost; a fragment list holds what each pixel shows, and the mean loses none of it either.
+/// A block holds the mean of the moments of its pixels. Sha18 draws the low-resolution pass against the *greatest*
+/// opaque depth of the block, so that no fragment that some pixel of it shows is lost; a fragment list holds what each
+/// pixel shows, and the mean loses none of it either.
 ///
 /// # Source
 /// Sha18 Sec. 4.1.
@@ -58,9 +61,13 @@ impl Method for LowResolution {
         )
     }
 
-    /// Sha18 Table 1: 20 bytes a block; coverage at full resolution (32 bits) and the colour target.
-    fn bits_per_pixel(&self) -> u32 {
-        160u32.div_ceil((self.factor * self.factor) as u32) + 32 + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
+    /// Sha18 Table 1: five numbers a block, and coverage at full resolution.
+    fn capabilities(&self) -> Capabilities {
+        let block = (self.factor * self.factor) as u32;
+        Capabilities {
+            bits_per_pixel: Some(sums(5).div_ceil(block) + targets(1, self.own)),
+            ..Capabilities::of_sums(5, false)
+        }
     }
 
     fn accumulate<'a>(
@@ -77,7 +84,9 @@ impl Method for LowResolution {
             let (x1, y1) = ((x0 + self.factor).min(width), (y0 + self.factor).min(height));
             let mut b = [0.0; 5];
             for p in (y0..y1).flat_map(|y| (x0..x1).map(move |x| y * width + x)) {
-                for sample in samples(&warp, list.pixel(p)) {
+                let mut samples = samples(&warp, list.pixel(p));
+                sort(&mut samples);
+                for sample in samples {
                     add(&mut b, unit(sample));
                 }
             }

@@ -2,11 +2,13 @@
 
 pub mod abuffer;
 pub mod adaptive;
+pub mod capabilities;
 pub mod core;
 pub mod deep_weighted_blended;
 pub mod depth_peeling;
 pub mod dual_depth_peeling;
 pub mod fourier_opacity;
+pub mod hybrid;
 mod layered;
 pub mod low_resolution_moments;
 mod moment_based;
@@ -17,16 +19,20 @@ pub mod multi_layer_alpha;
 pub mod neural;
 pub mod registry;
 pub mod shader;
+pub mod stochastic;
 #[cfg(test)]
 mod testing;
 pub mod two_moment_passes;
+pub mod wavelet;
 pub mod weighted_average;
 pub mod weighted_blended;
 pub mod weighted_sum;
 
-pub use registry::{ParseError, all_names, names_with_shader, parse, shader_of};
+pub use capabilities::{Capabilities, Needs};
+pub use registry::{ParseError, all_names, names_with_shader, parse, shader_of, source};
 pub use shader::MethodShader;
 
+use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{self, CameraPlanes, DepthError, FragmentList, Pixel};
 use std::convert::Infallible;
 
@@ -72,8 +78,8 @@ pub trait Method: Send + Sync {
     /// Its name on the command line.
     fn name(&self) -> String;
 
-    /// What pass 1 and the composite keep of a pixel \[bits\].
-    fn bits_per_pixel(&self) -> u32;
+    /// What it keeps of a pixel, how often it draws the geometry, and what it needs.
+    fn capabilities(&self) -> Capabilities;
 
     /// Whether its weights are transmittances, so that an error of T can be stated.
     fn weights_are_transmittance(&self) -> bool {
@@ -117,7 +123,8 @@ pub trait Accumulated: Send + Sync {
     }
 }
 
-/// Colour of a pixel from its fragments' transmittances: C = (1 − e^−b0)/Σ a T · Σ a C T + e^−b0 C_bg; the background alone where Σ a T is 0.
+/// Colour of a pixel from its fragments' transmittances: C = (1 − e^−b0)/Σ a T · Σ a C T + e^−b0 C_bg; the background
+/// alone where Σ a T is 0.
 ///
 /// # Source
 /// NMT24 Eq. 7.
@@ -149,23 +156,23 @@ pub fn composite_with_total(
     std::array::from_fn(|c| scale * sum[c] + behind * background[c])
 }
 
-/// Σ a w C and Σ a w of a pixel, what an additive pass 2 leaves.
+/// Σ a w C and Σ a w of a pixel, what an additive pass 2 leaves, the same to the bit in any order of the fragments.
 ///
 /// # Panics
 /// If the pixel has fragments and no colours.
 fn weighted_sums(pixel: Pixel<'_>, weights: &[f64]) -> ([f64; 3], f64) {
     let color = pixel.color.unwrap_or(&[]);
     assert_eq!(color.len(), pixel.len(), "compositing needs colours");
-    let mut total = 0.0;
-    let mut sum = [0.0; 3];
+    let mut total = ExactSum::default();
+    let mut sum = [ExactSum::default(); 3];
     for ((&a, c), &w) in pixel.alpha.iter().zip(color).zip(weights) {
         let weight = f64::from(a) * w;
-        total += weight;
+        total.add(weight);
         for (s, &c) in sum.iter_mut().zip(c) {
-            *s += weight * f64::from(c);
+            s.add(weight * f64::from(c));
         }
     }
-    (sum, total)
+    (sum.map(|s| s.value()), total.value())
 }
 
 /// Weights of every fragment of a list, in the order of the list, on all cores.

@@ -1,20 +1,13 @@
-//! What the moment-based methods share: a pixel's moments in pass 1, a curve of transmittance over depth in pass 2, and the exact rules of `+own`.
+//! What the moment-based methods share: a pixel's moments in pass 1, a curve of transmittance over depth in pass 2, and
+//! the exact rules of `+own`.
 
-use super::shader::{Composite, MethodShader, Offers, WEIGHT};
+use super::capabilities::Capabilities;
+use super::shader::{Composite, MethodShader, Offers, Pass1, WEIGHT};
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::features::MomentDepthKind;
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
 use std::sync::OnceLock;
-
-/// Bits of the colour target that the composite reads: four half-precision channels.
-///
-/// # Source
-/// MKKP18 Sec. 7.
-pub(super) const COLOUR_BITS: u32 = 64;
-
-/// Bits that `+own` keeps besides: least and greatest view depth in single precision.
-pub(super) const ENDS_BITS: u32 = 64;
 
 /// Share of the total absorbance below which nothing but the fragment itself is thought to be there.
 pub(super) const NOTHING_ELSE: f64 = 1e-6;
@@ -36,8 +29,12 @@ pub(super) trait MomentBased: Send + Sync {
     type Curve: Send + Sync;
 
     fn name(&self) -> String;
-    /// Without the colour target.
-    fn moment_bits(&self) -> u32;
+    /// What it keeps and needs; `own` where both ends of the pixel are kept too.
+    fn capabilities(&self, own: bool) -> Capabilities;
+    /// Whether a stored sum is rounded with every fragment, so that it depends on their order by as much.
+    fn rounds_sums(&self) -> bool {
+        false
+    }
     fn accumulate(&self, samples: &[Sample]) -> Self::Moments;
     /// Total absorbance as kept.
     fn total(&self, moments: &Self::Moments) -> f64;
@@ -87,6 +84,7 @@ impl MomentShader {
             range: own,
             depth: MomentDepthKind::Log,
             composite: Composite::Normalised,
+            pass1: Pass1::Added,
             core: None,
             offers: Offers::default(),
             weight: WEIGHT,
@@ -128,7 +126,14 @@ pub(super) fn samples(warp: &LogWarp, pixel: Pixel<'_>) -> Vec<Sample> {
     pixel.view_z.iter().zip(pixel.alpha).map(sample).collect()
 }
 
-/// The exact answer about a fragment where there is one: nearest, alone, farthest, in this order, decided on view depth bit for bit.
+/// Brings samples into an order that does not depend on that of the input, so that f64 sums of them are the same to the
+/// bit.
+pub(super) fn sort(samples: &mut [Sample]) {
+    samples.sort_unstable_by(|a, b| a.z.0.total_cmp(&b.z.0).then(a.absorbance.total_cmp(&b.absorbance)));
+}
+
+/// The exact answer about a fragment where there is one: nearest, alone, farthest, in this order, decided on view depth
+/// bit for bit.
 ///
 /// # Domain
 /// `ends`: least and greatest view depth of the pixel; `total`: its absorbance.
@@ -156,8 +161,8 @@ impl<F: MomentBased> Method for PerPixel<F> {
         format!("{}{}", self.family.name(), if self.own { "+own" } else { "" })
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        self.family.moment_bits() + COLOUR_BITS + if self.own { ENDS_BITS } else { 0 }
+    fn capabilities(&self) -> Capabilities {
+        self.family.capabilities(self.own)
     }
 
     fn shader(&self) -> Option<MethodShader> {
@@ -173,7 +178,13 @@ impl<F: MomentBased> Method for PerPixel<F> {
         let warp = warp(&|| self.name(), list, &context)?;
         let moments = (0..list.pixels()).into_par_iter().with_min_len(64);
         let moments = moments
-            .map(|p| self.family.accumulate(&samples(&warp, list.pixel(p))))
+            .map(|p| {
+                let mut samples = samples(&warp, list.pixel(p));
+                if !self.family.rounds_sums() {
+                    sort(&mut samples);
+                }
+                self.family.accumulate(&samples)
+            })
             .collect();
         Ok(Box::new(Pixels {
             method: self,
@@ -235,8 +246,9 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
                 if others.is_finite() {
                     return others.clamp(least, 1.0);
                 }
-                // What rounded storage leaves without the fragment need not be moments of any measure; with it they may be; failing
-                // that, all that is known of the others' absorbance in front is that it lies between none and all.
+                // What rounded storage leaves without the fragment need not be moments of any measure; with it they may
+                // be; failing that, all that is known of the others' absorbance in front is that it lies between none
+                // and all.
                 let with_own = family.transmittance(with_own.get_or_init(|| family.curve(moments)), sample.z);
                 if with_own.is_finite() {
                     with_own.clamp(least, 1.0)

@@ -1,8 +1,9 @@
 //! Moment-based transparency with power moments.
 
 use super::Method;
+use super::capabilities::{Capabilities, Needs, RANGE_BITS, sums};
 use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
-use super::registry::{Arguments, Entry, ParseError};
+use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::{Bias, OVERESTIMATION, PowerCurve};
 use crate::moments::storage::{MomentStorage, through_nlqm, through_unorm16};
 use crate::numeric::quantise::round_f16;
@@ -12,19 +13,22 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-power-4",
-        pattern: "moment-power-4[:f32|unorm16][+own], moment-power-4:nlqm",
+        pattern: "moment-power-4[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-4:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<2, 5>,
     },
     Entry {
         head: "moment-power-6",
-        pattern: "moment-power-6[:f32|unorm16][+own], moment-power-6:nlqm",
+        pattern: "moment-power-6[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-6:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<3, 7>,
     },
     Entry {
         head: "moment-power-8",
-        pattern: "moment-power-8[:f32|unorm16][+own], moment-power-8:nlqm",
+        pattern: "moment-power-8[:f32|unorm16][:bias=B][:overestimation=O][+own], moment-power-8:nlqm",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<4, 9>,
     },
@@ -38,7 +42,8 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let storage = match arguments.argument {
+    let told = arguments.of_moments()?;
+    let storage = match told.storage {
         None => MomentStorage::F64,
         Some("f32") => MomentStorage::F32,
         Some("unorm16") => MomentStorage::Unorm16,
@@ -48,7 +53,11 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
         Some(_) => return Err(arguments.wrong("expected f32, unorm16 or nlqm")),
     };
     Ok(Box::new(PerPixel {
-        family: Power::<N, M> { storage },
+        family: Power::<N, M> {
+            storage,
+            strength: told.bias,
+            overestimation: told.overestimation,
+        },
         own: arguments.own,
     }))
 }
@@ -59,13 +68,21 @@ fn build<const N: usize, const M: usize>(arguments: &Arguments<'_>) -> Result<Bo
 /// MKKP18 Sec. 3 and 4.
 struct Power<const N: usize, const M: usize> {
     storage: MomentStorage,
+    /// Strength of the bias in place of the published one.
+    strength: Option<f64>,
+    /// Overestimation in place of the usual ones.
+    overestimation: Option<f64>,
 }
 
 impl<const N: usize, const M: usize> Power<N, M> {
     fn bias(&self) -> Bias {
-        match self.storage {
+        let published = match self.storage {
             MomentStorage::Unorm16 => Bias::sixteen_bits(2 * N),
             MomentStorage::F64 | MomentStorage::F32 | MomentStorage::Nlqm => Bias::single_precision(2 * N),
+        };
+        Bias {
+            strength: self.strength.unwrap_or(published.strength),
+            ..published
         }
     }
 }
@@ -85,21 +102,42 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     type Curve = PowerCurve<f64, N>;
 
     fn name(&self) -> String {
-        format!("moment-power-{}{}", 2 * N, self.storage.suffix())
+        format!(
+            "moment-power-{}{}{}",
+            2 * N,
+            self.storage.suffix(),
+            MomentArguments::suffix(self.strength, self.overestimation)
+        )
     }
 
-    /// MKKP18 Table 1: 160 and 80 bits for four moments, 224 and 112 for six. What is kept in f64 here stands for single precision.
-    fn moment_bits(&self) -> u32 {
+    /// b_0..b_2N in f32 where nothing is rounded to 16 bits. Quantised moments are no sums that could be blended; one
+    /// fragment after the other is added to them (MKKP18 Sec. 4.3), or beside single precision sums (Sha18 Table 1).
+    fn capabilities(&self, own: bool) -> Capabilities {
+        let m = M as u32;
+        let of_sums = Capabilities::of_sums(m, own);
+        let range = if own { RANGE_BITS } else { 0 };
         match self.storage {
-            MomentStorage::F64 | MomentStorage::F32 => 32 * M as u32,
-            MomentStorage::Unorm16 => 16 * M as u32,
-            // Sha18 Table 1: the single-precision target of pass 1 and the quantities beside it.
-            MomentStorage::Nlqm => (32 + 16) * M as u32,
+            MomentStorage::F64 | MomentStorage::F32 => of_sums,
+            MomentStorage::Unorm16 => Capabilities {
+                bits_per_pixel: Some(16 * m + range),
+                needs: Needs::INTERLOCK,
+                ..of_sums
+            },
+            MomentStorage::Nlqm => Capabilities {
+                bits_per_pixel: Some(sums(m) + 16 * m),
+                ..of_sums
+            },
         }
     }
 
+    fn rounds_sums(&self) -> bool {
+        matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
+    }
+
     fn shader(&self) -> Option<MomentShader> {
-        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32);
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32)
+            && self.strength.is_none()
+            && self.overestimation.is_none();
         let powers: Vec<String> = (1..M).map(|i| format!("let b{i} = b{} * f.z;", i - 1)).collect();
         let moments: Vec<String> = (0..M).map(|i| format!("b{i}")).collect();
         f32s.then(|| MomentShader {
@@ -165,11 +203,11 @@ impl<const N: usize, const M: usize> MomentBased for Power<N, M> {
     }
 
     fn transmittance(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OVERESTIMATION))
     }
 
     fn transmittance_of_others(&self, curve: &PowerCurve<f64, N>, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OTHERS_OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OTHERS_OVERESTIMATION))
     }
 }
 

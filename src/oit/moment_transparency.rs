@@ -1,6 +1,7 @@
 //! Sharpe's moment transparency: four moments of depths in [0, 1] and the lower bound.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::moment_power::add;
 use super::registry::{Arguments, Entry, ParseError};
@@ -11,6 +12,7 @@ use crate::pixel::MomentDepth;
 pub const ENTRY: Entry = Entry {
     head: "moment-transparency",
     pattern: "moment-transparency[:OVERESTIMATION][+own]",
+    source: "Sharpe, HPG 2018",
     names,
     build,
 };
@@ -39,7 +41,8 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
 /// Bias of moments of depths in [0, 1], in single precision.
 ///
 /// # Source
-/// Strength and target of moment shadow mapping (C. Peters, R. Klein, *Moment shadow mapping*, I3D 2015), on which Sha18 builds; Sha18 prints none.
+/// Strength and target of moment shadow mapping (C. Peters, R. Klein, *Moment shadow mapping*, I3D 2015), on which
+/// Sha18 builds; Sha18 prints none.
 pub(super) const BIAS: Bias = Bias {
     strength: 3e-7,
     target: [0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0],
@@ -78,9 +81,8 @@ impl MomentBased for MomentTransparency {
         }
     }
 
-    /// Sha18 Table 1: 32 bytes with the 12 of weighted blended transparency; the colour target is counted apart, and coverage is b_0.
-    fn moment_bits(&self) -> u32 {
-        160
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities::of_sums(5, own)
     }
 
     fn accumulate(&self, samples: &[Sample]) -> [f64; 5] {

@@ -1,8 +1,9 @@
 //! Moment-based transparency with trigonometric moments.
 
 use super::Method;
+use super::capabilities::{Capabilities, Needs, RANGE_BITS};
 use super::moment_based::{MomentBased, MomentShader, OTHERS_OVERESTIMATION, PerPixel, Sample};
-use super::registry::{Arguments, Entry, ParseError};
+use super::registry::{Arguments, Entry, MomentArguments, ParseError};
 use crate::moments::hamburger::OVERESTIMATION;
 use crate::moments::storage::MomentStorage;
 use crate::moments::trigonometric::{TrigonometricCurve, TrigonometricMoments, moment_bias};
@@ -14,19 +15,22 @@ use crate::pixel::MomentDepth;
 pub const ENTRIES: [Entry; 3] = [
     Entry {
         head: "moment-trig-2",
-        pattern: "moment-trig-2[:f32|unorm16][+own]",
+        pattern: "moment-trig-2[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<2>,
     },
     Entry {
         head: "moment-trig-3",
-        pattern: "moment-trig-3[:f32|unorm16][+own]",
+        pattern: "moment-trig-3[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<3>,
     },
     Entry {
         head: "moment-trig-4",
-        pattern: "moment-trig-4[:f32|unorm16][+own]",
+        pattern: "moment-trig-4[:f32|unorm16][:bias=B][:overestimation=O][+own]",
+        source: "Münstermann, Krumpen, Klein, Peters, PACMCGIT 1(1) 2018",
         names,
         build: build::<4>,
     },
@@ -40,14 +44,19 @@ fn names(head: &str) -> Vec<String> {
 }
 
 fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
-    let storage = match arguments.argument {
+    let told = arguments.of_moments()?;
+    let storage = match told.storage {
         None => MomentStorage::F64,
         Some("f32") => MomentStorage::F32,
         Some("unorm16") => MomentStorage::Unorm16,
         Some(_) => return Err(arguments.wrong("expected f32 or unorm16")),
     };
     Ok(Box::new(PerPixel {
-        family: Trigonometric::<M> { storage },
+        family: Trigonometric::<M> {
+            storage,
+            bias: told.bias,
+            overestimation: told.overestimation,
+        },
         own: arguments.own,
     }))
 }
@@ -58,6 +67,10 @@ fn build<const M: usize>(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, P
 /// MKKP18 Sec. 5.
 struct Trigonometric<const M: usize> {
     storage: MomentStorage,
+    /// The bias in place of the published one.
+    bias: Option<f64>,
+    /// Overestimation in place of the usual ones.
+    overestimation: Option<f64>,
 }
 
 impl<const M: usize> MomentBased for Trigonometric<M> {
@@ -65,16 +78,35 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     type Curve = TrigonometricCurve<f64, M>;
 
     fn name(&self) -> String {
-        format!("moment-trig-{M}{}", self.storage.suffix())
+        format!(
+            "moment-trig-{M}{}{}",
+            self.storage.suffix(),
+            MomentArguments::suffix(self.bias, self.overestimation)
+        )
     }
 
-    /// MKKP18 Table 1: 224 and 112 bits for three moments, 288 and 144 for four.
-    fn moment_bits(&self) -> u32 {
-        (if self.storage == MomentStorage::Unorm16 { 16 } else { 32 }) * (2 * M as u32 + 1)
+    /// b_0 and M complex moments, in f32 where nothing is rounded to 16 bits (MKKP18 Table 1).
+    fn capabilities(&self, own: bool) -> Capabilities {
+        let numbers = 2 * M as u32 + 1;
+        let of_sums = Capabilities::of_sums(numbers, own);
+        if self.storage == MomentStorage::Unorm16 {
+            return Capabilities {
+                bits_per_pixel: Some(16 * numbers + if own { RANGE_BITS } else { 0 }),
+                needs: Needs::INTERLOCK,
+                ..of_sums
+            };
+        }
+        of_sums
+    }
+
+    fn rounds_sums(&self) -> bool {
+        matches!(self.storage, MomentStorage::F32 | MomentStorage::Unorm16)
     }
 
     fn shader(&self) -> Option<MomentShader> {
-        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32);
+        let f32s = matches!(self.storage, MomentStorage::F64 | MomentStorage::F32)
+            && self.bias.is_none()
+            && self.overestimation.is_none();
         let power = |i| format!("let b{i} = complex_times(b{}, x);", i - 1);
         let powers: Vec<String> = (2..=M).map(power).collect();
         let moments: Vec<String> = (1..=M).map(|i| format!("b{i}.x, b{i}.y")).collect();
@@ -126,14 +158,15 @@ impl<const M: usize> MomentBased for Trigonometric<M> {
     }
 
     fn curve(&self, b: &Self::Moments) -> Self::Curve {
-        TrigonometricCurve::new(b, moment_bias(M, self.storage == MomentStorage::Unorm16))
+        let published = moment_bias(M, self.storage == MomentStorage::Unorm16);
+        TrigonometricCurve::new(b, self.bias.unwrap_or(published))
     }
 
     fn transmittance(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OVERESTIMATION))
     }
 
     fn transmittance_of_others(&self, curve: &Self::Curve, z: MomentDepth) -> f64 {
-        curve.transmittance(z, OTHERS_OVERESTIMATION)
+        curve.transmittance(z, self.overestimation.unwrap_or(OTHERS_OVERESTIMATION))
     }
 }

@@ -1,5 +1,6 @@
 //! Multi-layer alpha blending: a k-buffer that merges its last two layers when it overflows.
 
+use super::capabilities::{Capabilities, Needs};
 use super::layered::Layered;
 use super::registry::{Arguments, Entry, ParseError};
 use super::{Accumulated, Context, Method, MethodError};
@@ -8,10 +9,11 @@ use crate::pixel::{FragmentList, Pixel, absorbance};
 /// The stem of its name on the command line, `multi-layer-alpha:K`.
 pub const NAME: &str = "multi-layer-alpha";
 
-/// K layers of (depth, colour, transmittance), sorted by depth. Fragments are inserted in the order of the input, behind layers of equal depth; when
-/// there are K + 1 layers, the last two become one at the nearer of their depths: (C1 + T1 C2, T1 T2). At the end the layers are blended from front
-/// to back. Nothing is lost, but fragments that come late and lie behind a merged layer are blended in the wrong place; the result depends on the
-/// order of the input unless K is at least the number of fragments.
+/// K layers of (depth, colour, transmittance), sorted by depth. Fragments are inserted in the order of the input,
+/// behind layers of equal depth; when there are K + 1 layers, the last two become one at the nearer of their depths:
+/// (C1 + T1 C2, T1 T2). At the end the layers are blended from front to back. Nothing is lost, but fragments that come
+/// late and lie behind a merged layer are blended in the wrong place; the result depends on the order of the input
+/// unless K is at least the number of fragments.
 ///
 /// The composite is linear in the colours, and a fragment's weight is what it multiplies a C by.
 ///
@@ -27,6 +29,7 @@ pub struct MultiLayerAlpha {
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: "multi-layer-alpha:K",
+    source: "Salvi, Vaidyanathan, I3D 2014",
     names,
     build,
 };
@@ -47,8 +50,14 @@ impl Method for MultiLayerAlpha {
     }
 
     /// A layer is a colour and a transmittance in RGBA16F and a depth in R32F.
-    fn bits_per_pixel(&self) -> u32 {
-        96 * self.layers as u32
+    fn capabilities(&self) -> Capabilities {
+        Capabilities {
+            bits_per_pixel: Some(96u32.saturating_mul(self.layers as u32)),
+            colour_bits_per_pixel: 0,
+            geometry_passes: 1,
+            needs: Needs::INTERLOCK,
+            order_dependent: true,
+        }
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
@@ -192,7 +201,8 @@ mod tests {
         }
     }
 
-    /// One colour over itself stays where nothing is clamped, and what passes through the pixel is exact, whatever was merged.
+    /// One colour over itself stays where nothing is clamped, and what passes through the pixel is exact, whatever was
+    /// merged.
     #[test]
     fn one_colour_stays() {
         let white = image(&MultiLayerAlpha { layers: 2 }, &painted(&scene(5), [1.0; 3]));

@@ -1,8 +1,9 @@
 //! Neural moment transparency: a network answers from moments.
 
+use super::capabilities::{Capabilities, Needs};
 use super::registry::{Arguments, Entry, ParseError};
-use super::{Accumulated, Context, Method, MethodError};
-use crate::features::{Extractor, MomentFrame, SumPrecision};
+use super::{Accumulated, Context, Method, MethodError, core, deep_weighted_blended};
+use crate::features::{Extractor, FeatureSet, MomentFrame, SumPrecision};
 use crate::infer::{self, Switches};
 pub use crate::infer::{Answered, Skip};
 use crate::model::{Mlp, shipped};
@@ -21,6 +22,7 @@ pub struct Neural {
 pub const ENTRY: Entry = Entry {
     head: "neural",
     pattern: "neural:MODEL",
+    source: "Tsopouridis, Vasilakis, Fudos, Eurographics 2024 (`paper`); the others are ours",
     names: |_| Vec::new(),
     build,
 };
@@ -77,6 +79,11 @@ impl Neural {
     /// The frame of its moments.
     pub fn frame(&self) -> MomentFrame {
         self.frame
+    }
+
+    /// What it keeps of a pixel besides the colour \[bits\].
+    pub fn bits_per_pixel(&self) -> u32 {
+        self.capabilities().bits_per_pixel.expect("a network keeps sums")
     }
 
     /// The network.
@@ -139,8 +146,28 @@ impl Method for Neural {
         )
     }
 
-    fn bits_per_pixel(&self) -> u32 {
-        self.mlp.feature_set().spec().sums.bits_per_pixel
+    /// b0 and the moments, the number of fragments and both ends; of core sets also the single fragments, kept by atomics. Moments in the pixel's
+    /// own frame need a prepass.
+    fn capabilities(&self) -> Capabilities {
+        let set = self.mlp.feature_set();
+        if set == FeatureSet::DeepWeightedBlended {
+            return deep_weighted_blended::CAPABILITIES;
+        }
+        let of_sums = Capabilities::of_sums(1 + set.moments() as u32, true);
+        if let Some(core) = set.spec().core {
+            return core::capabilities(core.bits());
+        }
+        if self.frame == MomentFrame::Scene {
+            return of_sums;
+        }
+        Capabilities {
+            geometry_passes: of_sums.geometry_passes + 1,
+            needs: Needs {
+                prepass: true,
+                ..of_sums.needs
+            },
+            ..of_sums
+        }
     }
 
     fn accumulate<'a>(

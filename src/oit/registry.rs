@@ -1,9 +1,10 @@
 //! Methods by their names on the command line.
 
+use super::shader::Pass1;
 use super::{
     Method, MethodShader, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling,
-    fourier_opacity, low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha, neural,
-    two_moment_passes, weighted_average, weighted_blended, weighted_sum,
+    fourier_opacity, hybrid, low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha,
+    neural, stochastic, two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
 };
 use crate::model::ModelError;
 use crate::numeric::similar::suggestion;
@@ -55,6 +56,30 @@ impl Arguments<'_> {
         }
     }
 
+    /// What stands between the colons of a method of moments: storage, `bias=B`, `overestimation=O`, in any order.
+    ///
+    /// # Errors
+    /// [`ParseError::Argument`] where a number is not from 0 to 1, or something stands there twice.
+    pub fn of_moments(&self) -> Result<MomentArguments<'_>, ParseError> {
+        let mut found = MomentArguments::default();
+        for part in self.argument.into_iter().flat_map(|a| a.split(':')) {
+            let (slot, text) = if let Some(text) = part.strip_prefix("bias=") {
+                (&mut found.bias, text)
+            } else if let Some(text) = part.strip_prefix("overestimation=") {
+                (&mut found.overestimation, text)
+            } else if found.storage.replace(part).is_none() {
+                continue;
+            } else {
+                return Err(self.wrong("expected one storage"));
+            };
+            match text.parse::<f64>() {
+                Ok(number) if (0.0..=1.0).contains(&number) && slot.is_none() => *slot = Some(number),
+                _ => return Err(self.wrong("expected a bias and an overestimation from 0 to 1")),
+            }
+        }
+        Ok(found)
+    }
+
     /// Checks that nothing stands after the head but `+own`.
     ///
     /// # Errors
@@ -68,16 +93,39 @@ impl Arguments<'_> {
     }
 }
 
+/// What a method of moments may be told in its name.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct MomentArguments<'a> {
+    /// What stands there but for the options.
+    pub storage: Option<&'a str>,
+    /// Moment bias in place of the published one.
+    pub bias: Option<f64>,
+    /// Overestimation in place of the usual one.
+    pub overestimation: Option<f64>,
+}
+
+impl MomentArguments<'_> {
+    /// The options as they stand in a name, bias first.
+    pub fn suffix(bias: Option<f64>, overestimation: Option<f64>) -> String {
+        let bias = bias.map_or_else(String::new, |bias| format!(":bias={bias:e}"));
+        let overestimation = overestimation.map_or_else(String::new, |o| format!(":overestimation={o}"));
+        format!("{bias}{overestimation}")
+    }
+}
+
 /// Most layers, nodes or passes that a method may be asked for.
 pub const MAX_LAYERS: usize = 1 << 16;
 
-/// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how to make one.
+/// A kind of method: its head, how its name is written, the names that stand for it in a list of all methods, and how
+/// to make one.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {
     /// What stands before the colon.
     pub head: &'static str,
     /// The whole name with its options, for messages.
     pub pattern: &'static str,
+    /// Who published it.
+    pub source: &'static str,
     /// Names for `all`, from the head.
     pub names: fn(&str) -> Vec<String>,
     /// Makes the method.
@@ -97,6 +145,9 @@ const ENTRIES: &[&[Entry]] = &[
     &[two_moment_passes::ENTRY],
     &[low_resolution_moments::ENTRY],
     &[fourier_opacity::ENTRY],
+    &[wavelet::ENTRY],
+    &[hybrid::ENTRY],
+    &[stochastic::ENTRY],
     &[depth_peeling::ENTRY],
     &[dual_depth_peeling::ENTRY],
     &[multi_layer_alpha::ENTRY],
@@ -174,6 +225,12 @@ pub fn parse(name: &str) -> Result<Box<dyn Method>, ParseError> {
     }
 }
 
+/// Who published the method of a name; none of a name that no method has.
+pub fn source(name: &str) -> Option<&'static str> {
+    let head = name.split(['+', ':']).next().unwrap_or_default();
+    entries().find(|e| e.head == head).map(|e| e.source)
+}
+
 /// The names that stand for all methods, every one of which [`parse`] takes.
 pub fn all_names() -> Vec<String> {
     entries().flat_map(|e| (e.names)(e.head)).collect()
@@ -187,7 +244,9 @@ pub fn shader_of(name: &str) -> Option<MethodShader> {
 /// Names of the methods that have a GPU twin. Where names differ in the CPU's storage alone, the shortest stands for all.
 pub fn names_with_shader() -> Vec<String> {
     let names = all_names().into_iter().filter(|name| !name.contains(":f32"));
-    names.filter(|name| shader_of(name).is_some()).collect()
+    names
+        .filter(|name| shader_of(name).is_some_and(|shader| shader.pass1 == Pass1::Added))
+        .collect()
 }
 
 #[cfg(test)]
@@ -207,13 +266,39 @@ mod tests {
         for name in &names {
             let method = parse(name).unwrap();
             assert_eq!(&method.name(), name);
-            assert!(method.bits_per_pixel() >= 64);
+            let capabilities = method.capabilities();
+            let bits = capabilities
+                .bits_per_pixel
+                .map(|bits| bits + capabilities.colour_bits_per_pixel);
+            assert!(
+                bits.is_none_or(|bits| bits >= 64) && capabilities.geometry_passes >= 1,
+                "{name}"
+            );
         }
+    }
+
+    /// A bias is part of the name and changes the answers; the published one, written out, does not.
+    #[test]
+    fn a_bias_may_be_given() {
+        let list = image(64, 6);
+        let of = |name: &str| {
+            let method = parse(name).unwrap();
+            assert_eq!(method.name(), name);
+            weights(&list, &*method.accumulate(&list, Context::default()).unwrap())
+        };
+        assert_eq!(of("moment-power-4"), of("moment-power-4:bias=5e-7"));
+        assert_ne!(of("moment-power-4"), of("moment-power-4:bias=1e-4"));
+        assert_eq!(of("moment-trig-2:f32+own"), of("moment-trig-2:f32:bias=4e-7+own"));
+        assert_ne!(of("moment-trig-2"), of("moment-trig-2:bias=1e-2"));
+        assert_eq!(of("moment-power-6"), of("moment-power-6:overestimation=0.25"));
+        assert_ne!(of("moment-trig-2"), of("moment-trig-2:overestimation=0.5"));
     }
 
     #[test]
     fn wrong_names_are_explained() {
         for (name, part) in [
+            ("moment-power-4:bias=2", "a bias and an overestimation from 0 to 1"),
+            ("moment-power-4:f32:f32", "expected one storage"),
             ("moment-power-5", "known are abuffer, "),
             ("", "there is no method ''"),
             (
@@ -232,7 +317,8 @@ mod tests {
         }
     }
 
-    /// Sharpe's bias pulls towards atoms at depths 0 and 1: a pixel with fragments at the ends only stays singular, and NaN.
+    /// Sharpe's bias pulls towards atoms at depths 0 and 1: a pixel with fragments at the ends only stays singular, and
+    /// NaN.
     fn published_singular(name: &str) -> bool {
         ["moment-transparency", "two-moment-passes", "low-resolution-moments"]
             .iter()
@@ -263,8 +349,8 @@ mod tests {
             .any(|head| name.starts_with(head))
     }
 
-    /// All methods on odd but valid lists: as many weights as fragments, finite and not negative where storage does not round, 1 where all is
-    /// clear; and a depth range that is none is refused by those that need one.
+    /// All methods on odd but valid lists: as many weights as fragments, finite and not negative where storage does not
+    /// round, 1 where all is clear; and a depth range that is none is refused by those that need one.
     #[test]
     fn odd_lists_are_answered() {
         let planes = crate::pixel::CameraPlanes::new(0.5, 10.0).unwrap();
@@ -311,7 +397,8 @@ mod tests {
         }
     }
 
-    /// With the own fragment removed the ends of every pixel are exact, to 1e-12 where nothing rounds, and so are pixels of two.
+    /// With the own fragment removed the ends of every pixel are exact, to 1e-12 where nothing rounds, and so are
+    /// pixels of two.
     #[test]
     fn own_answers_the_ends_exactly() {
         let list = image(64, 6);

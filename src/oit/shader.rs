@@ -25,6 +25,18 @@ pub enum Composite {
     Average,
 }
 
+/// How pass 1 makes the numbers of a pixel from its fragments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pass1 {
+    /// It adds up what `oit_accumulate` says of each fragment: by blending, or a thread a pixel.
+    Added,
+    /// It hands the numbers, zeros at first, from one fragment of the pixel to the next, with the pixel's nearest and
+    /// farthest v, which a prepass has found: `fn oit_add_to(sums: ptr<function, array<f32, K>>, f: OitFragment,
+    /// nearest: f32, farthest: f32)`. A thread a pixel does it in passes over lists; a renderer needs an interlock, or
+    /// where the numbers are sums after all, blending and the prepass.
+    Inserted,
+}
+
 /// A transparency method as WGSL.
 ///
 /// # Contract
@@ -45,6 +57,9 @@ pub struct MethodShader {
     pub range: bool,
     /// Depth that `OitFragment.z` holds.
     pub depth: MomentDepthKind,
+    /// How pass 1 makes them; where [`Pass1::Inserted`], the source defines `oit_add_to` in place of `oit_accumulate`,
+    /// and no sum need be b0.
+    pub pass1: Pass1,
     /// How the colour is made.
     pub composite: Composite,
     /// Single fragments that pass 1 keeps beside the sums; then the sums are of what their steps stand for, and the number of
@@ -87,10 +102,27 @@ impl MethodShader {
             range: composite == Composite::Average,
             depth,
             composite,
+            pass1: Pass1::Added,
             core: None,
             offers: Offers::default(),
             weight: WEIGHT,
             source: format!("{TOTAL}{weight}"),
+        }
+    }
+
+    /// A method whose pass 1 hands numbers from fragment to fragment.
+    pub(super) fn inserted(name: String, sums: usize, source: String) -> Self {
+        Self {
+            name,
+            sums,
+            range: true,
+            depth: MomentDepthKind::None,
+            pass1: Pass1::Inserted,
+            composite: Composite::Normalised,
+            core: None,
+            offers: Offers::default(),
+            weight: WEIGHT,
+            source,
         }
     }
 
@@ -102,6 +134,7 @@ impl MethodShader {
             range: false,
             depth: MomentDepthKind::Log,
             composite: Composite::Normalised,
+            pass1: Pass1::Added,
             core: Some(set),
             offers: Offers::default(),
             weight: WEIGHT,

@@ -1,6 +1,7 @@
 //! Sharpe's two moment passes: the first estimates what each fragment adds to the second.
 
 use super::Method;
+use super::capabilities::Capabilities;
 use super::moment_based::{MomentBased, PerPixel, Sample};
 use super::moment_power::add;
 use super::moment_transparency::{BIAS, unit, unit_depth};
@@ -12,6 +13,7 @@ use crate::pixel::MomentDepth;
 pub const ENTRY: Entry = Entry {
     head: "two-moment-passes",
     pattern: "two-moment-passes[+own]",
+    source: "Sharpe, HPG 2018",
     names: |head| vec![head.to_owned(), format!("{head}+own")],
     build,
 };
@@ -24,11 +26,13 @@ fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     }))
 }
 
-/// Two sets of four moments. In the second each absorbance is weighted by the transmittance in front of it as the first set tells it; the second set gives the
-/// fraction of absorbance in front of a depth, the first the total that it is a fraction of.
+/// Two sets of four moments. In the second each absorbance is weighted by the transmittance in front of it as the first
+/// set tells it; the second set gives the fraction of absorbance in front of a depth, the first the total that it is a
+/// fraction of.
 ///
 /// # Source
-/// Sha18 Sec. 4.4. The paper leaves the formula to a supplement that is not at hand; this reading shows what its Fig. 2 shows, too much shadow with two fragments.
+/// Sha18 Sec. 4.4. The paper leaves the formula to a supplement that is not at hand; this reading shows what its Fig. 2
+/// shows, too much shadow with two fragments.
 struct TwoMomentPasses;
 
 /// Both sets, b_0..b_4 each.
@@ -55,9 +59,12 @@ impl MomentBased for TwoMomentPasses {
         "two-moment-passes".to_owned()
     }
 
-    /// Sha18 Table 1: 20 bytes more than moment transparency.
-    fn moment_bits(&self) -> u32 {
-        320
+    /// Two sets of moments, each in a pass over the geometry of its own.
+    fn capabilities(&self, own: bool) -> Capabilities {
+        Capabilities {
+            geometry_passes: 3,
+            ..Capabilities::of_sums(10, own)
+        }
     }
 
     fn accumulate(&self, samples: &[Sample]) -> Sets {

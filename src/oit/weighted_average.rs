@@ -1,5 +1,6 @@
 //! Bavoil and Myers' weighted average: all fragments of a pixel take on its mean colour and its mean opacity.
 
+use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
 use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError, weighted_sums};
@@ -10,7 +11,8 @@ pub const NAME: &str = "weighted-average";
 
 /// C = Σ a C/Σ a · (1 − (1 − ā)^n) + (1 − ā)^n C_bg with ā = Σ a/n; the background alone where Σ a is 0.
 ///
-/// Exact for one fragment and for fragments of one colour and one opacity. Opacities are taken as they are, without the clamp of the absorbance.
+/// Exact for one fragment and for fragments of one colour and one opacity. Opacities are taken as they are, without the
+/// clamp of the absorbance.
 ///
 /// # Source
 /// Bavoil, Myers, *Order Independent Transparency with Dual Depth Peeling*, NVIDIA 2008; as MB13 Sec. 2 restates it.
@@ -21,6 +23,7 @@ pub struct WeightedAverage;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Bavoil, Myers, NVIDIA 2008",
     names: |head| vec![head.to_owned()],
     build,
 };
@@ -36,9 +39,9 @@ impl Method for WeightedAverage {
         NAME.to_owned()
     }
 
-    /// Σ a C and Σ a in RGBA16F, n in R16F.
-    fn bits_per_pixel(&self) -> u32 {
-        80
+    /// The number of fragments; Σ a lies in the colour's fourth channel.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::of_blending(sums(1))
     }
 
     /// They are 1.

@@ -1,10 +1,13 @@
-//! McGuire and Bavoil's weighted blended transparency: a fixed function of depth and opacity stands in for the transmittance.
+//! McGuire and Bavoil's weighted blended transparency: a fixed function of depth and opacity stands in for the
+//! transmittance.
 
+use super::capabilities::{Capabilities, sums};
 use super::registry::{Arguments, Entry, ParseError};
 use super::shader::{Composite, MethodShader};
-use super::{Accumulated, Context, Method, MethodError};
+use super::{Accumulated, Context, Method, MethodError, composite_normalised};
 use crate::features::MomentDepthKind;
-use crate::pixel::{CameraPlanes, DepthError, FragmentList, ViewZ};
+use crate::numeric::exact_sum::ExactSum;
+use crate::pixel::{CameraPlanes, DepthError, FragmentList, ViewZ, abuffer};
 
 /// Its name on the command line; `weighted-blended:WEIGHT` chooses a weight, by default that of [`Weight::default`].
 pub const NAME: &str = "weighted-blended";
@@ -31,18 +34,18 @@ pub enum Weight {
     ///
     /// MB13 Eq. 10, DWB22 Eq. 3.8.
     Mb13Eq10,
-    /// a · max(10^−2, min(8, 0.3·10^5 + (1 − z/200)^4)) as printed. The second term of `min` is never below 30000, so that the weight is the
-    /// constant 8a, and is computed as that.
+    /// a · max(10^−2, min(8, 0.3·10^5 + (1 − z/200)^4)) as printed. The second term of `min` is never below 30000, so
+    /// that the weight is the constant 8a, and is computed as that.
     ///
     /// DWB22 Eq. 3.10.
     Dwb22,
-    /// a · max(10^−2, min(8, 0.3·10^−5 + (1 − z/200)^4)): the same with the exponent's sign, which seems lost in print. It falls with depth up to
-    /// z = 200 and rises beyond.
+    /// a · max(10^−2, min(8, 0.3·10^−5 + (1 − z/200)^4)): the same with the exponent's sign, which seems lost in print.
+    /// It falls with depth up to z = 200 and rises beyond.
     ///
     /// DWB22 Eq. 3.10, our reading.
     Dwb22Small,
-    /// a · max(10^−2, min(1, 0.3/(10^−5 + ((1 − z)/200)^4))): what the shader computes, whose last clamp makes the 8 ineffective. It is the
-    /// constant a up to z = 149.
+    /// a · max(10^−2, min(1, 0.3/(10^−5 + ((1 − z)/200)^4))): what the shader computes, whose last clamp makes the 8
+    /// ineffective. It is the constant a up to z = 149.
     ///
     /// DWB22 App. B.2.
     Dwb22Shader,
@@ -98,6 +101,17 @@ impl Weight {
     }
 }
 
+/// What view depths are multiplied by before a weight function takes them, which was made for depths from 0.1 to 500.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum DepthScale {
+    /// 1: the scene's own units.
+    #[default]
+    Units,
+    /// The power of √2, from 2^−12 to 2^12, whose image comes nearest to the A-buffer's over at most 4096 pixels of the
+    /// list: no renderer can know it, and no fixed choice does better by more than the step.
+    Best,
+}
+
 /// Weighted blended transparency: C = Σ w a C/Σ w a · (1 − e^−b0) + e^−b0 C_bg.
 ///
 /// # Source
@@ -106,40 +120,62 @@ impl Weight {
 pub struct WeightedBlended {
     /// Its weight function.
     pub weight: Weight,
+    /// What depths are multiplied by.
+    pub scale: DepthScale,
 }
 
 /// The method by its name.
 pub const ENTRY: Entry = Entry {
     head: NAME,
-    pattern: "weighted-blended[:WEIGHT]",
+    pattern: "weighted-blended[:WEIGHT][:best-scale]",
+    source: "McGuire, Bavoil, JCGT 2(2) 2013; Papakostas, MSc thesis, Ioannina 2022",
     names,
     build,
 };
 
 fn names(head: &str) -> Vec<String> {
-    Weight::ALL.map(|w| format!("{head}:{}", w.name())).to_vec()
+    let in_units = Weight::ALL.map(|w| format!("{head}:{}", w.name()));
+    let scaled = SCALED.map(|w| format!("{head}:{}{BEST_SCALE}", w.name()));
+    in_units.into_iter().chain(scaled).collect()
 }
+
+/// The end of a name that asks for [`DepthScale::Best`].
+const BEST_SCALE: &str = ":best-scale";
+
+/// Weights whose depth scale is worth a search: those of MB13 that take view depth.
+const SCALED: [Weight; 3] = [Weight::Mb13Eq7, Weight::Mb13Eq8, Weight::Mb13Eq9];
 
 fn build(arguments: &Arguments<'_>) -> Result<Box<dyn Method>, ParseError> {
     arguments.no_own()?;
-    let weight = match arguments.argument {
-        None => Some(Weight::default()),
-        Some(text) => Weight::ALL.into_iter().find(|w| w.name() == text),
+    let (name, scale) = match arguments.argument {
+        None => (Weight::default().name(), DepthScale::Units),
+        Some(text) => match text.strip_suffix(BEST_SCALE) {
+            Some(name) => (name, DepthScale::Best),
+            None => (text, DepthScale::Units),
+        },
     };
+    let weight = Weight::ALL.into_iter().find(|w| w.name() == name);
     match weight {
-        Some(weight) => Ok(Box::new(WeightedBlended { weight })),
+        Some(weight) if scale == DepthScale::Units || SCALED.contains(&weight) => {
+            Ok(Box::new(WeightedBlended { weight, scale }))
+        }
+        Some(_) => Err(arguments.wrong(format!(
+            "best-scale goes with {} only; expected one of them",
+            SCALED.map(Weight::name).join(", ")
+        ))),
         None => Err(arguments.wrong(format!("expected one of {}", Weight::ALL.map(Weight::name).join(", ")))),
     }
 }
 
 impl Method for WeightedBlended {
     fn name(&self) -> String {
-        format!("{NAME}:{}", self.weight.name())
+        let scale = if self.scale == DepthScale::Best { BEST_SCALE } else { "" };
+        format!("{NAME}:{}{scale}", self.weight.name())
     }
 
-    /// Σ w a C and Σ w a in RGBA16F, what is left of the background in R8.
-    fn bits_per_pixel(&self) -> u32 {
-        72
+    /// b0, or what is left of the background; Σ w a lies in the colour's fourth channel.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::of_blending(sums(1))
     }
 
     /// They only fall with depth as transmittance does.
@@ -148,6 +184,9 @@ impl Method for WeightedBlended {
     }
 
     fn shader(&self) -> Option<MethodShader> {
+        if self.scale == DepthScale::Best {
+            return None;
+        }
         let depth = match self.weight {
             Weight::Mb13Eq10 => MomentDepthKind::Window,
             _ => MomentDepthKind::None,
@@ -169,10 +208,14 @@ impl Method for WeightedBlended {
         context: Context,
     ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
         let planes = context.planes_for(list);
+        let scale = match self.scale {
+            DepthScale::Units => 1.0,
+            DepthScale::Best => self.best_scale(list),
+        };
         let mut weights = vec![0.0; list.len()];
         list.par_pixels(0..list.pixels(), &mut weights, 1, |_, pixel, out| {
             for ((out, &v), &a) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
-                *out = self.weight.of(v, a, planes)?;
+                *out = self.weight.of(scale * v, a, planes)?;
             }
             Ok(())
         })
@@ -181,6 +224,36 @@ impl Method for WeightedBlended {
             source,
         })?;
         Ok(Box::new(Weighted { list, weights }))
+    }
+}
+
+/// Most pixels that the best depth scale is looked for on.
+const SCALE_PIXELS: usize = 4096;
+
+impl WeightedBlended {
+    /// The depth scale of the least image error over white, or of 1 where the list has no colours.
+    fn best_scale(&self, list: &FragmentList) -> f32 {
+        if list.color().is_none() {
+            return 1.0;
+        }
+        let step = list.pixels().div_ceil(SCALE_PIXELS).max(1);
+        let pixels = || (0..list.pixels()).step_by(step);
+        let exact: Vec<[f64; 3]> = pixels().map(|p| abuffer::composite(list.pixel(p), [1.0; 3])).collect();
+        let error = |scale: f32| -> f64 {
+            let of_pixel = |(p, exact): (usize, &[f64; 3])| {
+                let pixel = list.pixel(p);
+                let weigh = |(&v, &a): (&f32, &f32)| self.weight.of(scale * v, a, None).unwrap_or(0.0);
+                let weights: Vec<f64> = pixel.view_z.iter().zip(pixel.alpha).map(weigh).collect();
+                let ours = composite_normalised(pixel, &weights, [1.0; 3]);
+                ours.iter().zip(exact).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
+            };
+            pixels().zip(&exact).map(of_pixel).collect::<ExactSum>().value()
+        };
+        let scales = (-24..=24).map(|k| libm::exp2(0.5 * f64::from(k)) as f32);
+        let errors = scales.map(|scale| (scale, error(scale)));
+        errors
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map_or(1.0, |(scale, _)| scale)
     }
 }
 
@@ -202,7 +275,27 @@ mod tests {
     use crate::oit::testing::*;
 
     fn blended(weight: Weight) -> WeightedBlended {
-        WeightedBlended { weight }
+        WeightedBlended {
+            weight,
+            scale: DepthScale::Units,
+        }
+    }
+
+    /// The same depths in another unit leave the best scale's image as it was, to the step of a factor √2; in fixed
+    /// units they change it. And the best is never worse than any of the scales that are tried: here that of the units.
+    #[test]
+    fn the_best_scale_knows_no_units() {
+        let list = untied(6);
+        let of = |scale, factor: f32| {
+            let view_z: Vec<f32> = list.view_z().iter().map(|v| v * factor).collect();
+            let color = list.color().unwrap().to_vec();
+            let list = FragmentList::new(list.offsets().to_vec(), view_z, list.alpha().to_vec(), Some(color)).unwrap();
+            let weight = Weight::Mb13Eq9;
+            image_mse(&WeightedBlended { weight, scale }, &list)
+        };
+        let best = of(DepthScale::Best, 1.0);
+        assert!((of(DepthScale::Best, 64.0) / best - 1.0).abs() < 1e-9);
+        assert!(best <= of(DepthScale::Units, 1.0) && best < 0.99 * of(DepthScale::Units, 1.0 / 64.0));
     }
 
     /// Each formula at a depth where its powers are plain numbers, and at both of its bounds.
@@ -274,7 +367,8 @@ mod tests {
         assert_close(&image(&blended(Weight::Dwb22), &two())[0], &[0.625, 0.625, 0.25]);
     }
 
-    /// The composite is normalised: one colour stays, however wrong the weights; and what the pixel lets through is exact.
+    /// The composite is normalised: one colour stays, however wrong the weights; and what the pixel lets through is
+    /// exact.
     #[test]
     fn one_colour_stays_and_order_never_matters() {
         let list = scene(3);
@@ -331,6 +425,11 @@ mod tests {
             let name = blended(weight).name();
             assert_eq!(parse(&name).unwrap().name(), name);
         }
+        assert_eq!(
+            parse("weighted-blended:mb13-8:best-scale").unwrap().name(),
+            "weighted-blended:mb13-8:best-scale"
+        );
+        assert!(parse("weighted-blended:dwb22:best-scale").is_err());
         let error = parse("weighted-blended:mb13").map(drop).unwrap_err().to_string();
         assert!(error.contains("expected one of mb13-7, "), "{error}");
     }

@@ -1,15 +1,18 @@
 //! Meshkin's weighted sum: the over operator with every product of opacities left out.
 
+use super::capabilities::Capabilities;
 use super::layered::composite_over;
 use super::registry::{Arguments, Entry, ParseError};
 use super::shader::{Composite, MethodShader};
 use super::{Accumulated, Context, Method, MethodError};
+use crate::numeric::exact_sum::ExactSum;
 use crate::pixel::{FragmentList, Pixel};
 
 /// Its name on the command line.
 pub const NAME: &str = "weighted-sum";
 
-/// C = Σ a C + (1 − Σ a) C_bg: exact for one fragment, and out of range (light taken from the background that was never there) once Σ a exceeds 1.
+/// C = Σ a C + (1 − Σ a) C_bg: exact for one fragment, and out of range (light taken from the background that was never
+/// there) once Σ a exceeds 1.
 ///
 /// # Source
 /// Meshkin, *Sort-Independent Alpha Blending*, GDC 2007; as MB13 Sec. 2 restates it.
@@ -20,6 +23,7 @@ pub struct WeightedSum;
 pub const ENTRY: Entry = Entry {
     head: NAME,
     pattern: NAME,
+    source: "Meshkin, GDC 2007",
     names: |head| vec![head.to_owned()],
     build,
 };
@@ -35,9 +39,9 @@ impl Method for WeightedSum {
         NAME.to_owned()
     }
 
-    /// Σ a C and Σ a in RGBA16F.
-    fn bits_per_pixel(&self) -> u32 {
-        64
+    /// Σ a lies in the colour's fourth channel. The reference pipeline draws it in one pass.
+    fn capabilities(&self) -> Capabilities {
+        Capabilities::of_blending(0)
     }
 
     /// They are 1.
@@ -62,7 +66,7 @@ impl Accumulated for Sum {
     }
 
     fn composite(&self, pixel: Pixel<'_>, _: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
-        let alphas: f64 = pixel.alpha.iter().map(|&a| f64::from(a)).sum();
+        let alphas = pixel.alpha.iter().map(|&a| f64::from(a)).collect::<ExactSum>().value();
         composite_over(pixel, weights, 1.0 - alphas, background)
     }
 }

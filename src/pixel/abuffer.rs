@@ -1,6 +1,7 @@
 //! Ground truth: all fragments of a pixel, sorted, in f64.
 
 use super::{FragmentList, Pixel, absorbance};
+use crate::numeric::exact_sum::ExactSum;
 use std::convert::Infallible;
 
 /// Transmittance in front of every fragment of a pixel, in the order of the input.
@@ -83,9 +84,9 @@ fn of_list(list: &FragmentList, f: fn(Pixel<'_>, &mut [f64])) -> Vec<f64> {
     out
 }
 
-/// Total absorbance b0 = Σ A_i of a pixel.
+/// Total absorbance b0 = Σ A_i of a pixel, the same to the bit in any order of the fragments.
 pub fn total_absorbance(pixel: Pixel<'_>) -> f64 {
-    pixel.alpha.iter().map(|&a| absorbance(a)).sum()
+    pixel.alpha.iter().map(|&a| absorbance(a)).collect::<ExactSum>().value()
 }
 
 /// Colour of a pixel under the over operator: C = Σ a_i C_i T_i + e^−b0 C_bg.

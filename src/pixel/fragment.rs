@@ -296,6 +296,25 @@ impl FragmentList {
         self
     }
 
+    /// The same pixels with their fragments in another order: fragment i becomes what fragment `order[i]` was.
+    ///
+    /// # Panics
+    /// If `order` has another length than the list, or takes a fragment from another pixel.
+    pub fn reordered(&self, order: &[usize]) -> Self {
+        assert_eq!(order.len(), self.len(), "one place a fragment");
+        let stays = |p: usize| order[self.range(p)].iter().all(|i| self.range(p).contains(i));
+        assert!((0..self.pixels()).all(stays), "fragments stay in their pixels");
+        Self {
+            view_z: order.iter().map(|&i| self.view_z[i]).collect(),
+            alpha: order.iter().map(|&i| self.alpha[i]).collect(),
+            color: self
+                .color
+                .as_ref()
+                .map(|color| order.iter().map(|&i| color[i]).collect()),
+            ..self.clone()
+        }
+    }
+
     /// The pixels of this list, then those of another, with this list's planes; not an image any more.
     ///
     /// Colours stay where both lists have them.

@@ -5,7 +5,6 @@ use crate::dataset::{Rows, build::rows};
 use crate::features::{Extractor, FeatureSet, SumPrecision};
 use crate::model::Mlp;
 use crate::model::simplify::activity;
-use crate::oit::Method;
 use crate::oit::neural::Neural;
 use serde::Serialize;
 
@@ -30,7 +29,8 @@ pub struct Networked {
     pub moments: u64,
     /// Memory of pass 1 and the composite, moments in f32 \[bits\].
     pub bits_per_pixel: u32,
-    /// Image error (or that of transmittance) with moments stored as RGBA16F and as RGBA16; none where the features leave no choice.
+    /// Image error (or that of transmittance) with moments stored as RGBA16F and as RGBA16; none where the features
+    /// leave no choice.
     pub stored: Vec<Stored>,
     /// Units, layer by layer.
     pub layers: Vec<Layer>,

@@ -1,6 +1,6 @@
 //! Scene files: what is to be seen, and from where, in TOML.
 
-use super::camera::{Camera, Vec3, cross, dot, sub, unit};
+use super::camera::{Camera, Vec3, View, cross, dot, sub, unit};
 use super::mesh::{self, Affine, IDENTITY, Overrides, Part, apply, compose};
 use super::raster::{Geometry, TexturedTriangle, Triangle, Vertex, rasterise};
 use super::splat::{Splat, file as splat_file};
@@ -23,6 +23,9 @@ pub struct SceneFile {
     /// The camera. Where none is given, a built-in scene has one of its own, and one is placed so that it sees all of a
     /// file's content.
     pub camera: Option<Camera>,
+    /// A spot light, described as the camera that sees what it shines on; a built-in scene has one of its own where
+    /// none is given.
+    pub light: Option<Camera>,
     /// Meshes; none where a built-in scene is named.
     #[serde(default, rename = "mesh")]
     pub meshes: Vec<MeshEntry>,
@@ -92,6 +95,18 @@ impl Overrides for MeshEntry {
     }
 }
 
+/// What a camera sees, before it is drawn.
+pub(super) struct Seen {
+    /// Surfaces, particles and splats.
+    pub geometry: Geometry,
+    /// The camera, which is placed for the content where the scene file gives none.
+    pub camera: Camera,
+    /// Its view of the geometry.
+    pub view: View,
+    /// What was left out of the files.
+    pub left_out: Vec<LeftOut>,
+}
+
 impl SceneFile {
     /// Reads a scene file.
     ///
@@ -115,6 +130,7 @@ impl SceneFile {
             built_in: None,
             seed: None,
             camera: None,
+            light: None,
             meshes: Vec::new(),
             splats: Vec::new(),
             path: path.to_owned(),
@@ -168,6 +184,7 @@ impl SceneFile {
             built_in: Some(name.to_owned()),
             seed: None,
             camera: None,
+            light: None,
             meshes: Vec::new(),
             splats: Vec::new(),
             path: name.into(),
@@ -302,11 +319,47 @@ impl SceneFile {
         }
     }
 
-    /// The fragments that the camera sees, and the camera.
+    /// The file that this was read from.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The light, or that of a built-in scene.
+    pub(super) fn light_camera(&self) -> Result<Camera, SceneError> {
+        match (self.light, &self.built_in) {
+            (Some(light), _) => Ok(light),
+            (None, Some(name)) => Ok(procedural::light(name)),
+            (None, None) => Err(SceneError::field(
+                &self.path,
+                "light",
+                "it is missing".to_owned(),
+                "a [light] with the fields of a camera",
+            )),
+        }
+    }
+
+    /// The fragments that the camera sees, and the camera; objects are drawn in their own order or in a random one.
     ///
     /// # Errors
     /// [`SceneError`] for a file that cannot be read or a picture that would take too much memory.
-    pub(super) fn build(&self, options: &Options) -> Result<(FragmentList, Camera), SceneError> {
+    pub(super) fn build(
+        &self,
+        options: &Options,
+        draw_order: Option<u64>,
+    ) -> Result<(FragmentList, Camera), SceneError> {
+        let seen = self.seen(options)?;
+        let geometry = match draw_order {
+            Some(seed) => seen.geometry.in_random_order(seed),
+            None => seen.geometry,
+        };
+        Ok((
+            rasterise(&geometry, &seen.view)?.with_left_out(seen.left_out),
+            seen.camera,
+        ))
+    }
+
+    /// The geometry, and the camera's view of it.
+    pub(super) fn seen(&self, options: &Options) -> Result<Seen, SceneError> {
         self.validate()?;
         let mut left_out = Vec::new();
         let content = match &self.built_in {
@@ -326,7 +379,12 @@ impl SceneFile {
             (None, Some(name)) => procedural::geometry(name, options.seed.or(self.seed).unwrap_or(1), view.eye),
             (content, _) => content.unwrap_or_default(),
         };
-        Ok((rasterise(&geometry, &view)?.with_left_out(left_out), camera))
+        Ok(Seen {
+            geometry,
+            camera,
+            view,
+            left_out,
+        })
     }
 
     /// A camera that sees all there is but the outermost of it, from the front and above, a little to the side.
@@ -423,6 +481,7 @@ impl SceneFile {
                 let expected = format!("coordinates of size {:e} at most", mesh::MAX_COORDINATE);
                 return Err(SceneError::field(&self.path, &format!("splats[{i}]"), found, &expected));
             }
+            geometry.end_object();
         }
         Ok(geometry)
     }

@@ -11,6 +11,7 @@ pub mod npz;
 pub mod path;
 mod procedural;
 mod raster;
+pub mod shadow;
 pub mod splat;
 mod texture;
 
@@ -26,7 +27,7 @@ use crate::pixel::{FragmentError, FragmentList};
 use std::path::{Path, PathBuf};
 
 /// The scenes that need no files.
-pub const BUILT_IN: [&str; 8] = [
+pub const BUILT_IN: [&str; 9] = [
     "glass-stacks",
     "smoke",
     "hair",
@@ -35,6 +36,7 @@ pub const BUILT_IN: [&str; 8] = [
     "sphere-cluster",
     "teapots",
     "splats",
+    "curtains",
 ];
 
 /// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
@@ -166,7 +168,7 @@ pub fn open(name: &str) -> Result<SceneFile, SceneError> {
 /// # Errors
 /// [`SceneError`] for a mesh that cannot be read, and for a picture that would take too much memory.
 pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, SceneError> {
-    Ok(scene.build(options)?.0)
+    Ok(scene.build(options, None)?.0)
 }
 
 /// As [`build`], with the camera that saw them, which is placed for the content where the scene file gives none.
@@ -174,7 +176,17 @@ pub fn build(scene: &SceneFile, options: &Options) -> Result<FragmentList, Scene
 /// # Errors
 /// As [`build`].
 pub fn build_with_camera(scene: &SceneFile, options: &Options) -> Result<(FragmentList, Camera), SceneError> {
-    scene.build(options)
+    scene.build(options, None)
+}
+
+/// The same fragments as [`build`] makes, the objects drawn in a random order: within a pixel fragments stand in the
+/// order in which a renderer that does not sort would shade them. Objects are the meshes of a scene file, and the
+/// panes, locks, leaves, pots, spheres, particles and splats of built-in scenes.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_in_random_order(scene: &SceneFile, options: &Options, seed: u64) -> Result<FragmentList, SceneError> {
+    Ok(scene.build(options, Some(seed))?.0)
 }
 
 /// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep
@@ -240,6 +252,7 @@ mod tests {
             ("sphere-cluster", 16),
             ("teapots", 6),
             ("splats", 101),
+            ("curtains", 20),
         ] {
             let list = small(name, 128, 1);
             assert!(list.depth_complexity() >= least, "{name}: {}", list.depth_complexity());
@@ -249,6 +262,44 @@ mod tests {
                 "{name} covers {covered} of {} pixels",
                 list.pixels()
             );
+        }
+    }
+
+    /// A random draw order moves fragments within their pixels and changes none; objects stay whole. Control: it does
+    /// move some.
+    #[test]
+    fn draw_orders_move_whole_objects() {
+        let options = Options {
+            size: Some((48, 48)),
+            seed: Some(3),
+        };
+        for name in ["glass-stacks", "foliage", "smoke", "curtains"] {
+            let scene = open(name).unwrap();
+            let (listed, drawn) = (
+                build(&scene, &options).unwrap(),
+                build_in_random_order(&scene, &options, 1).unwrap(),
+            );
+            let sorted = |list: &FragmentList, p: usize| {
+                let pixel = list.pixel(p);
+                let mut all: Vec<_> = (0..pixel.len())
+                    .map(|i| {
+                        (
+                            pixel.view_z[i].to_bits(),
+                            pixel.alpha[i].to_bits(),
+                            pixel.color.unwrap()[i].map(f32::to_bits),
+                        )
+                    })
+                    .collect();
+                all.sort_unstable();
+                all
+            };
+            assert_eq!(listed.offsets(), drawn.offsets(), "{name}");
+            assert!(
+                (0..listed.pixels()).all(|p| sorted(&listed, p) == sorted(&drawn, p)),
+                "{name}"
+            );
+            assert_ne!(listed, drawn, "{name}");
+            assert_eq!(drawn, build_in_random_order(&scene, &options, 1).unwrap());
         }
     }
 

@@ -20,6 +20,7 @@ pub(super) fn camera(name: &str) -> Camera {
         "sphere-cluster" => ([0.0, 1.1, 6.6], [0.0, 0.0, 0.0], 34.0),
         "spheres" => ([0.0, 1.1, 6.6], [0.0, -0.05, 0.0], 34.0),
         "splats" => ([0.6, 2.0, 5.4], [0.0, 0.95, 0.0], 34.0),
+        "curtains" => ([0.0, 0.0, 0.0], [0.0, 0.0, -1.0], 40.0),
         _ => ([1.1, 3.1, 8.6], [0.0, 0.28, -0.2], 41.0),
     };
     // About a hundred splats lie over each pixel, at any size.
@@ -36,6 +37,23 @@ pub(super) fn camera(name: &str) -> Camera {
     }
 }
 
+/// The light of a built-in scene, above the viewer's left shoulder.
+pub(super) fn light(name: &str) -> Camera {
+    let camera = camera(name);
+    let (middle, size) = match name {
+        "curtains" => ([0.0, 0.0, -4.0], 2.5),
+        _ => (camera.look_at, 1.0),
+    };
+    Camera {
+        position: add(middle, scale([-2.6, 6.4, 3.2], size)),
+        look_at: middle,
+        vertical_fov: 46.0,
+        near: 0.5,
+        far: 40.0,
+        ..camera
+    }
+}
+
 /// The geometry of a built-in scene for a viewer at `eye`.
 pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
     let mut out = Builder {
@@ -49,6 +67,7 @@ pub(super) fn geometry(name: &str, seed: u64, eye: Vec3) -> Geometry {
         "foliage" => foliage(&mut out, seed),
         "spheres" => spheres(&mut out),
         "splats" => splats(&mut out, seed),
+        "curtains" => curtains(&mut out, seed),
         "sphere-cluster" => sphere_cluster(&mut out, seed),
         _ => teapots(&mut out),
     }
@@ -63,6 +82,7 @@ enum Purpose {
     Hair,
     Leaves,
     Splats,
+    Curtains,
     Spheres,
 }
 
@@ -248,6 +268,7 @@ fn glass_stacks(out: &mut Builder, seed: u64) {
                     },
                 );
             }
+            out.geometry.end_object();
         }
     }
 }
@@ -357,6 +378,9 @@ fn hair(out: &mut Builder, seed: u64) {
             let ((a, b), (d, c)) = (pair[0], pair[1]);
             out.geometry.triangles.extend([[a, b, c], [a, c, d]]);
         }
+        if i % 60 == 59 {
+            out.geometry.end_object();
+        }
     }
 }
 
@@ -374,6 +398,7 @@ fn foliage(out: &mut Builder, seed: u64) {
         |v| (0.06 * libm::sin(3.0 * v), 2.3 * v),
         |v| 0.17 - 0.11 * v + 0.1 * libm::exp(-14.0 * v),
     );
+    out.geometry.end_object();
     let boughs: Vec<Vec3> = (0..26u64)
         .map(|b| {
             let mut rng = random(seed, Purpose::Leaves, (1 << 32) + b);
@@ -400,6 +425,7 @@ fn foliage(out: &mut Builder, seed: u64) {
             |v| (reach * v, (tip[1] - from[1]) * v * (0.6 + 0.4 * v)),
             |v| 0.045 * (1.0 - 0.8 * v),
         );
+        out.geometry.end_object();
     }
     for i in 0..LEAVES {
         let mut rng = random(seed, Purpose::Leaves, i);
@@ -440,6 +466,7 @@ fn foliage(out: &mut Builder, seed: u64) {
             out.flat([base, rim[1], end], paint);
             out.flat([rim[1], rim[2], end], paint);
         }
+        out.geometry.end_object();
     }
 }
 
@@ -607,6 +634,7 @@ fn spheres(out: &mut Builder) {
                 rim: 0.45,
             },
         );
+        out.geometry.end_object();
     }
     out.sphere(
         [0.0, 0.0, 0.0],
@@ -617,6 +645,50 @@ fn spheres(out: &mut Builder) {
             rim: 0.4,
         },
     );
+}
+
+/// Gauze in narrow folds, far apart: bunches of many fragments within a hundredth of their distance, several times as
+/// far as the one before.
+fn curtains(out: &mut Builder, seed: u64) {
+    const COLORS: [[f32; 3]; 5] = [
+        [0.9, 0.35, 0.3],
+        [0.95, 0.8, 0.35],
+        [0.35, 0.75, 0.45],
+        [0.3, 0.5, 0.9],
+        [0.7, 0.4, 0.8],
+    ];
+    const DISTANCES: [f64; 5] = [1.2, 2.9, 7.0, 15.0, 34.0];
+    const SHEETS: u64 = 7;
+    const STRIPS: u64 = 9;
+    for (curtain, (&color, &distance)) in COLORS.iter().zip(&DISTANCES).enumerate() {
+        for sheet in 0..SHEETS {
+            for strip in 0..STRIPS {
+                let mut rng = random(
+                    seed,
+                    Purpose::Curtains,
+                    (curtain as u64 * SHEETS + sheet) * STRIPS + strip,
+                );
+                let alpha = between(&mut rng, 0.05, 0.35) as f32;
+                let shade = between(&mut rng, 0.0, 1.0) as f32;
+                let left = -0.55 + 1.1 * (strip as f64 + between(&mut rng, -0.4, 0.4)) / STRIPS as f64;
+                let width = between(&mut rng, 0.08, 0.24);
+                let (top, bottom) = (between(&mut rng, 0.2, 0.4), between(&mut rng, -0.4, -0.2));
+                let depth = distance * (1.0 + 0.012 * (sheet as f64 + between(&mut rng, 0.0, 1.0)) / SHEETS as f64);
+                let (fold, phase) = (between(&mut rng, 20.0, 60.0), between(&mut rng, 0.0, TAU));
+                let paint = Paint {
+                    color: mix(color, [1.0, 1.0, 1.0], 0.4 * shade),
+                    alpha,
+                    rim: 0.0,
+                };
+                out.surface(24, 2, paint, |u, v| {
+                    let x = left + width * u;
+                    let z = depth * (1.0 + 0.002 * libm::sin(fold * x + phase));
+                    [x * z, (bottom + (top - bottom) * v) * z, -z]
+                });
+                out.geometry.end_object();
+            }
+        }
+    }
 }
 
 /// Forty spheres of all sizes and opacities within a ball, most of them cut by several others: as the camera moves,
@@ -633,6 +705,7 @@ fn sphere_cluster(out: &mut Builder, seed: u64) {
             rim: 0.3,
         };
         out.sphere(center, radius, paint);
+        out.geometry.end_object();
     }
 }
 
@@ -697,6 +770,7 @@ fn teapots(out: &mut Builder) {
             (-0.50 + 0.44 * libm::cos(angle), 0.40 + 0.24 * libm::sin(angle))
         };
         out.tube(paint, place, ear, |_| 0.05);
+        out.geometry.end_object();
     }
 }
 

@@ -12,7 +12,9 @@ use super::camera::{Vec3, View};
 use super::splat::{ScreenSplat, Splat};
 use super::texture::TexturedMaterial;
 use super::{MAX_FRAGMENTS, SceneError};
+use crate::numeric::rng::stream;
 use crate::pixel::FragmentList;
+use rand::RngExt;
 use rayon::prelude::*;
 
 /// Corner of a triangle.
@@ -62,6 +64,53 @@ pub struct Geometry {
     pub particles: Vec<Particle>,
     /// Gaussian splats; never opaque.
     pub splats: Vec<Splat>,
+    /// Where objects end among the triangles and among the textured triangles, in rising order; what comes after the
+    /// last is one object more. Every particle and every splat is an object.
+    pub object_ends: Vec<[usize; 2]>,
+}
+
+/// What random draw orders are drawn for.
+const DRAW_ORDER: u64 = 0x0d0e;
+
+impl Geometry {
+    fn surfaces(&self) -> [usize; 2] {
+        [self.triangles.len(), self.textured.len()]
+    }
+
+    /// Ends the object that the last surfaces belong to.
+    pub fn end_object(&mut self) {
+        self.object_ends.push(self.surfaces());
+    }
+
+    /// The same geometry with its objects in a random order, as a renderer draws them that does not sort; surfaces stay
+    /// before textured surfaces, and these before particles and splats.
+    pub fn in_random_order(self, seed: u64) -> Self {
+        let mut rng = stream(seed, DRAW_ORDER, 0);
+        let mut shuffle = |n: usize| {
+            let mut order: Vec<usize> = (0..n).collect();
+            for i in (1..n).rev() {
+                order.swap(i, (rng.random::<f64>() * (i + 1) as f64) as usize);
+            }
+            order
+        };
+        let all = self.surfaces();
+        let mut starts = vec![[0, 0]];
+        starts.extend(self.object_ends.iter().copied().filter(|&end| end != all));
+        let mut out = Self::default();
+        for object in shuffle(starts.len()) {
+            let ([first, first_textured], end) = (starts[object], starts.get(object + 1).unwrap_or(&all));
+            out.triangles.extend_from_slice(&self.triangles[first..end[0]]);
+            out.textured.extend_from_slice(&self.textured[first_textured..end[1]]);
+            out.end_object();
+        }
+        out.particles = shuffle(self.particles.len())
+            .into_iter()
+            .map(|i| self.particles[i])
+            .collect();
+        out.splats = shuffle(self.splats.len()).into_iter().map(|i| self.splats[i]).collect();
+        out.materials = self.materials;
+        out
+    }
 }
 
 /// Subpixel steps in a pixel.

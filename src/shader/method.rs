@@ -7,7 +7,7 @@ use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::oit::neural::Skip;
-use crate::oit::shader::{Composite, Offers, WEIGHT};
+use crate::oit::shader::{Composite, Offers, Pass1, WEIGHT};
 use crate::pixel::{CameraPlanes, FragmentList};
 
 /// The function of a method that is spared what cannot be seen.
@@ -64,6 +64,7 @@ impl MethodShader {
             range: true,
             depth: set.moment_depth(),
             composite: Composite::Normalised,
+            pass1: Pass1::Added,
             core: None,
             offers,
             weight: WEIGHT,

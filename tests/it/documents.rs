@@ -116,7 +116,6 @@ fn set(words: &mut Vec<String>, option: &str, value: &str) {
 fn smaller(mut words: Vec<String>) -> Vec<String> {
     let has = |words: &[String], option: &str| words.iter().any(|w| w == option);
     let scenes = [
-        "built-in",
         "glass-stacks",
         "smoke",
         "hair",
@@ -124,6 +123,8 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
         "spheres",
         "sphere-cluster",
         "teapots",
+        "curtains",
+        "built-in",
     ];
     let renders = words
         .iter()
@@ -139,6 +140,7 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
         set(&mut words, "--size", size);
     }
     match words[0].as_str() {
+        "evaluate" if has(&words, "--shadows") => set(&mut words, "--shadow-points", "20"),
         "run" | "train" => set(&mut words, "--epochs", "1"),
         "profile" => set(&mut words, "--repeat", "1"),
         "stress" => {
@@ -294,6 +296,7 @@ fn examples_of_help_run() {
         "stress",
         "profile",
         "import",
+        "methods",
         "completions",
         "man",
         "schema",

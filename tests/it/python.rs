@@ -5,15 +5,15 @@ use nmt::numeric::require::or_skip;
 use std::process::Command;
 
 /// The interpreter that has NumPy and onnxruntime; none, reported as skipped, where it is missing.
-fn python() -> Option<String> {
+pub fn python() -> Option<String> {
     or_skip(
         "python",
         std::env::var("NMT_PYTHON").map_err(|_| "NMT_PYTHON is not set; scripts/test sets it"),
     )
 }
 
-/// Features and T from the exported JSON alone agree with `nmt predict`, with onnxruntime on the exported ONNX, and with the dataset; and
-/// a T file with one wrong number does not.
+/// Features and T from the exported JSON alone agree with `nmt predict`, with onnxruntime on the exported ONNX, and
+/// with the dataset; and a T file with one wrong number does not.
 #[test]
 fn reproduces_features_and_transmittance_from_the_json_alone() {
     let Some(python) = python() else { return };
@@ -81,7 +81,8 @@ fn reproduces_features_and_transmittance_from_the_json_alone() {
     assert_eq!(read(&at.path("wrong.npy")).0, Some(1));
 }
 
-/// The same for the recommended network that is shipped, on the sample of pixels that stands in `data/`: features by their definition, exact answers by sorting.
+/// The same for the recommended network that is shipped, on the sample of pixels that stands in `data/`: features by
+/// their definition, exact answers by sorting.
 #[test]
 fn reproduces_the_recommended_network() {
     let Some(python) = python() else { return };
@@ -130,8 +131,9 @@ fn reproduces_the_recommended_network() {
     }
 }
 
-/// A fragment list that `nmt.py` writes is one that `nmt` reads, with empty pixels, ties and opacities 0 and 1 in it; both answer it alike,
-/// to 1e-5 where no pixel is thin. Control: with the opacities of two fragments exchanged they do not.
+/// A fragment list that `nmt.py` writes is one that `nmt` reads, with empty pixels, ties and opacities 0 and 1 in it;
+/// both answer it alike, to 1e-5 where no pixel is thin. Control: with the opacities of two fragments exchanged they do
+/// not.
 #[test]
 fn lists_written_in_numpy_are_answered_alike() {
     let Some(python) = python() else { return };

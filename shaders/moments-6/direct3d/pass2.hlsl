@@ -273,11 +273,11 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                         float per_mass2 = 1.0 / max(q0_2, 1e-6);
                         float raw_mean2 = clamp(q1_2 * per_mass2, -1.0, 1.0);
                         float noise_2 = moment_noise * noise_growth * noise_growth * noise_growth * noise_growth;
-                        float bounded = min(noise_2 * per_mass2, 1e15);
-                        float mean2 = raw_mean2 * (1.0 / (1.0 + bounded * bounded));
-                        float bounded_2 = min(noise_2 * noise_growth * per_mass2, 1e15);
+                        float rounded = noise_2 * per_mass2;
+                        float mean2 = raw_mean2 * (1.0 / (1.0 + rounded * rounded));
+                        float rounded_2 = noise_2 * noise_growth * per_mass2;
                         float spread2 = 0.5 + (sqrt(clamp((q2_2 * per_mass2 - raw_mean2 * raw_mean2) / max(1.0
-                            - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + bounded_2 * bounded_2));
+                            - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + rounded_2 * rounded_2));
                         float features[9] = { x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0,
                             mean1, spread1, mean2, spread2 };
                         front = others * nmt_share(features);

@@ -250,19 +250,19 @@ float nmt_fragment_transmittance(
                         float per_mass2 = 1.0 / metal::max(q0_2, 0.000001);
                         float raw_mean2 = metal::clamp(q1_2 * per_mass2, -1.0, 1.0);
                         float noise_2 = (((moment_noise * noise_growth) * noise_growth) * noise_growth) * noise_growth;
-                        float bounded_1 = metal::min(noise_2 * per_mass2, 1000000000000000.0);
-                        float mean2 = raw_mean2 * (1.0 / (1.0 + (bounded_1 * bounded_1)));
-                        float bounded_2 = metal::min((noise_2 * noise_growth) * per_mass2, 1000000000000000.0);
-                        float spread2 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2 * per_mass2) - (raw_mean2 * raw_mean2)) / metal::max(1.0 - (raw_mean2 * raw_mean2), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (bounded_2 * bounded_2))));
-                        float _e278 = nmt_share(type_7 {{x_2, (metal::log(n) * 0.48089835) - 1.0, metal::log(others + 0.05), _e61, _e108, _e140, spread1, mean2, spread2}});
-                        front = others * _e278;
+                        float rounded = noise_2 * per_mass2;
+                        float mean2 = raw_mean2 * (1.0 / (1.0 + (rounded * rounded)));
+                        float rounded_2 = (noise_2 * noise_growth) * per_mass2;
+                        float spread2 = 0.5 + ((metal::sqrt(metal::clamp(((q2_2 * per_mass2) - (raw_mean2 * raw_mean2)) / metal::max(1.0 - (raw_mean2 * raw_mean2), 0.000001), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + (rounded_2 * rounded_2))));
+                        float _e274 = nmt_share(type_7 {{x_2, (metal::log(n) * 0.48089835) - 1.0, metal::log(others + 0.05), _e61, _e108, _e140, spread1, mean2, spread2}});
+                        front = others * _e274;
                     }
                 }
             }
         }
     }
-    float _e280 = front;
-    return metal::min(metal::exp(-(_e280)), 1.0);
+    float _e276 = front;
+    return metal::min(metal::exp(-(_e276)), 1.0);
 }
 
 float nmt_pass2(

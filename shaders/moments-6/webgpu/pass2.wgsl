@@ -262,11 +262,11 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                         let per_mass2 = 1.0 / max(q0_2, 1e-6);
                         let raw_mean2 = clamp(q1_2 * per_mass2, -1.0, 1.0);
                         let noise_2 = moment_noise * noise_growth * noise_growth * noise_growth * noise_growth;
-                        let bounded = min(noise_2 * per_mass2, 1e15);
-                        let mean2 = raw_mean2 * (1.0 / (1.0 + bounded * bounded));
-                        let bounded_2 = min(noise_2 * noise_growth * per_mass2, 1e15);
+                        let rounded = noise_2 * per_mass2;
+                        let mean2 = raw_mean2 * (1.0 / (1.0 + rounded * rounded));
+                        let rounded_2 = noise_2 * noise_growth * per_mass2;
                         let spread2 = 0.5 + (sqrt(clamp((q2_2 * per_mass2 - raw_mean2 * raw_mean2) / max(1.0
-                            - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + bounded_2 * bounded_2));
+                            - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + rounded_2 * rounded_2));
                         front = others * nmt_share(array<f32, 9>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
                             mean0, spread0, mean1, spread1, mean2, spread2));
                     }

@@ -260,13 +260,14 @@ fn row_json(scene: &str, c: &Cost) -> Value {
     let both = Summary::of(&c.both);
     let row = json!({
         "benchmark": "methods", "scene": scene, "method": c.method, "network": c.network, "format": c.format, "adapter": c.adapter,
-        "arithmetic": c.arithmetic, "clock": c.clock.name(), "fragments": c.fragments, "bits_per_pixel": c.bits_per_pixel,
+        "arithmetic": c.arithmetic, "clock": c.clock.name(), "fragments": c.fragments,
         "transmittance_mse": c.transmittance_mse, "image_mse": c.image_mse, "flip_mean": c.flip_mean, "nonfinite": c.nonfinite,
         "image_nonfinite": c.image_nonfinite, "on_front": c.on_front,
         "seconds": both.median, "nanoseconds_per_fragment": per_fragment(both.median), "raw_seconds": c.both,
         "min_seconds": both.min, "max_seconds": both.max, "mad_seconds": both.mad,
         "calls_per_repetition": c.calls, "repetitions": c.both.len(), "threads": rayon::current_num_threads(),
     });
+    let row = merged(row, json!(c.capabilities));
     let Some(passes) = &c.passes else { return row };
     let (accumulate, weights) = (
         Summary::of(&passes.accumulate).median,
@@ -301,6 +302,7 @@ fn table_text(t: &Table, repeat: usize) -> String {
         "T-MSE",
         "non-finite",
         "bits/pixel",
+        "passes",
     ])];
     for c in &t.costs {
         let median =
@@ -318,11 +320,8 @@ fn table_text(t: &Table, repeat: usize) -> String {
             number(c.flip_mean, &|x| format!("{x:.4}")),
             number(c.transmittance_mse, &|x| format!("{x:.2e}")),
             c.nonfinite.to_string(),
-            if c.bits_per_pixel == u32::MAX {
-                "unbounded".to_owned()
-            } else {
-                c.bits_per_pixel.to_string()
-            },
+            c.capabilities.bits_text(),
+            c.capabilities.geometry_passes.to_string(),
         ]);
     }
     let error = if t.costs.iter().any(|c| c.image_mse.is_some()) {

@@ -15,11 +15,11 @@ fn oit_accumulate_list(@builtin(global_invocation_id) id: vec3<u32>, @builtin(nu
     OIT_CORE_VARIABLE
     var nearest = 3.0e38;
     var farthest = 0.0;
+    OIT_PREPASS
     for (var i = oit_offsets[pixel]; i < oit_offsets[pixel + 1u]; i++) {
         let v = oit_view_z[i];
         let alpha = oit_alpha[i];
         let f = oit_fragment_at(v, alpha);
-        let term = oit_accumulate(f);
         OIT_ADD
         OIT_INSERT
         nearest = min(nearest, v);

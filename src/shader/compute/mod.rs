@@ -8,7 +8,7 @@ use super::{MethodShader, core};
 use crate::export::core::stride;
 use crate::features::core::CoreSet;
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
-use crate::oit::shader::Composite;
+use crate::oit::shader::{Composite, Pass1};
 
 /// Entry point of pass 1, a thread a pixel, 64 to a workgroup.
 pub const ACCUMULATE: &str = "oit_accumulate_list";
@@ -43,6 +43,7 @@ const MIN_OPACITY: f32 = 1.0 / 512.0;
 struct State {
     sums: usize,
     range: bool,
+    pass1: Pass1,
     core: Option<CoreSet>,
 }
 
@@ -75,6 +76,13 @@ impl State {
             format!("oit_state[pixel * {vectors}u + {i}u] = vec4<f32>({vector});")
         };
         let add: Vec<String> = (0..self.sums).map(|i| format!("sums[{i}] += term[{i}];")).collect();
+        let (prepass, add) = match self.pass1 {
+            Pass1::Added => ("", format!("let term = oit_accumulate(f); {}", add.join(" "))),
+            Pass1::Inserted => {
+                let add = "oit_add_to(&sums, f, ends.x, ends.y);".to_owned();
+                (include_str!("prepass.wgsl").trim_end(), add)
+            }
+        };
         let stores: Vec<String> = (0..vectors).map(store).collect();
         let mut stores: Vec<String> = stores;
         let (mut head, mut variable, mut insert) = (String::new(), "", "");
@@ -86,7 +94,8 @@ impl State {
             insert = "oit_insert(&core, f.steps);";
         }
         let text = include_str!("accumulate.wgsl")
-            .replace("OIT_ADD", &add.join(" "))
+            .replace("OIT_PREPASS", prepass)
+            .replace("OIT_ADD", &add)
             .replace("OIT_STORE", &stores.join("\n    "))
             .replace("OIT_CORE_VARIABLE", variable)
             .replace("OIT_INSERT", insert);
@@ -140,6 +149,7 @@ impl ListShaders {
         let state = State {
             sums: method.sums,
             range: method.range,
+            pass1: method.pass1,
             core: method.core,
         };
         let module = method.module();
@@ -182,6 +192,7 @@ impl TileShaders {
         let state = State {
             sums: method.sums,
             range: true,
+            pass1: method.pass1,
             core: method.core,
         };
         let module = method.module();
