@@ -8,7 +8,7 @@ pub struct Capabilities {
     /// What is kept of a pixel besides the colour accumulator: sums, ranges, layers, cores \[bits\]; none where it
     /// grows with the scene.
     ///
-    /// Where the reference pipeline ([`crate::gpu::pipeline`]) draws the method, it is what the targets of pass 1 take
+    /// Where the reference pipeline (`gpu::pipeline`) draws the method, it is what the targets of pass 1 take
     /// there ([`targets`]); elsewhere what the method's own source allocates.
     pub bits_per_pixel: Option<u32>,
     /// The target that weighted colours are added up in \[bits\]; 0 where colours lie in the layers themselves.
