@@ -40,8 +40,14 @@ impl Dialect for Wgsl {
         format!("const {name}: {} = {value};", self.type_name(of))
     }
 
+    /// A lone "less than" is turned round, since some linkers take `<` with a later `>` for a list of templates.
     fn select(&self, condition: &str, yes: &str, no: &str) -> String {
-        format!("select({no}, {yes}, {condition})")
+        let lone = !condition.contains("&&") && !condition.contains("||");
+        let turned = [(" < ", ">"), (" <= ", ">=")].into_iter().find_map(|(less, greater)| {
+            let (a, b) = condition.split_once(less)?;
+            lone.then(|| format!("{b} {greater} {a}"))
+        });
+        format!("select({no}, {yes}, {})", turned.as_deref().unwrap_or(condition))
     }
 
     fn head(&self, name: &str, parameters: &[(&str, Type)], result: Type) -> String {
