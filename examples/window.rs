@@ -1,7 +1,8 @@
 //! A window that draws a built-in scene with the passes of `shaders/recommended/webgpu`, as they stand there.
 //!
 //! ```sh
-//! cargo run --release --example window -- foliage            # drag to turn, wheel to come nearer, 1 to 7 for other scenes
+//! cargo run --release --example window -- foliage
+//! # drag to turn, wheel to come nearer, 1 to 7 for other scenes
 //! cargo run --release --example window -- spheres --picture spheres.png      # the same without a window
 //! ```
 //!

@@ -1,4 +1,5 @@
-//! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light passes in front of it.
+//! Neural moment transparency: a tiny network that answers, for every transparent fragment of a pixel, how much light
+//! passes in front of it.
 //!
 //! ```
 //! use nmt::{evaluate::transmittance_error, features::Target, model::shipped, oit, scene};
@@ -16,9 +17,9 @@
 //!
 //! `examples/` has more: training and exporting a network, fragments of one's own, a method of one's own.
 //!
-//! Data flows down this list of modules, and a module imports only from those above it:
-//! [`numeric`], [`pixel`] and [`chart`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`], [`export`],
-//! [`gpu`], [`check`], [`evaluate`], [`mod@bench`], [`stress`], [`profile`] and [`report`].
+//! Data flows down this list of modules, and a module imports only from those above it: [`numeric`], [`pixel`] and
+//! [`chart`], [`synth`] and [`scene`], [`moments`], [`features`], [`dataset`], [`model`], [`train`], [`oit`],
+//! [`export`], [`gpu`], [`check`], [`evaluate`], [`mod@bench`], [`stress`], [`profile`] and [`report`].
 
 #![warn(missing_docs)]
 

@@ -1,8 +1,9 @@
-//! Every parser against damaged files: valid ones are mutated at random, and whatever comes out must be refused with an error or read as something
-//! valid, without a panic, without end, and without more memory than the file justifies.
+//! Every parser against damaged files: valid ones are mutated at random, and whatever comes out must be refused with an
+//! error or read as something valid, without a panic, without end, and without more memory than the file justifies.
 //!
-//! Without further ado each parser sees a few hundred files, the same in every run. `NMT_FUZZ_SECONDS` is a budget in seconds for all parsers together,
-//! `NMT_FUZZ_SEED` another seed. Files that break something stay in `target/tmp/fuzz`.
+//! Without further ado each parser sees a few hundred files, the same in every run. `NMT_FUZZ_SECONDS` is a budget in
+//! seconds for all parsers together, `NMT_FUZZ_SEED` another seed. Files that break something stay in
+//! `target/tmp/fuzz`.
 
 mod common;
 
@@ -76,7 +77,8 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// What a file of so many bytes may make a parser hold [bytes]: compressed bytes stand for about a thousand others at most.
+/// What a file of so many bytes may make a parser hold [bytes]: compressed bytes stand for about a thousand others at
+/// most.
 fn most_memory(file: usize) -> usize {
     (96 << 20) + 4096 * file
 }
@@ -157,7 +159,8 @@ fn change() -> impl Strategy<Value = Change> {
         2 => (at(), token()).prop_map(|(i, t)| Change::Insert(i, t)),
         3 => (at(), token()).prop_map(|(i, t)| Change::Overwrite(i, t)),
         4 => (at(), token()).prop_map(|(i, t)| Change::Number(i, t)),
-        2 => (at(), prop_oneof![-1e3..1e3f64, Just(1e38), Just(1e-38), Just(3.4e38), Just(16777216.0), Just(1e9)]).prop_map(|(i, x)| Change::Digits(i, x)),
+        2 => (at(), prop_oneof![-1e3..1e3f64, Just(1e38), Just(1e-38), Just(3.4e38), Just(16777216.0),
+            Just(1e9)]).prop_map(|(i, x)| Change::Digits(i, x)),
         1 => (at(), 1..300usize, any::<bool>()).prop_map(|(i, n, b)| Change::Nest(i, n, b)),
         1 => (at(), at(), 1..400usize, at()).prop_map(|(f, i, n, to)| Change::Splice(f, i, n, to)),
     ]
@@ -256,7 +259,8 @@ struct Parser<'a> {
     name: &'static str,
     /// Valid files, by the names under which they are read.
     seeds: Vec<(String, Vec<u8>)>,
-    /// Reads the file of a name in a folder, and says what is wrong with what came out; whether it was read or refused does not matter.
+    /// Reads the file of a name in a folder, and says what is wrong with what came out; whether it was read or refused
+    /// does not matter.
     #[expect(clippy::type_complexity)]
     read: Box<dyn Fn(&Path, &str) -> Result<bool, String> + 'a>,
 }
@@ -482,7 +486,8 @@ fn fuzz(parser: &Parser<'_>, budget: Budget) -> Result<(u32, u32), Broken> {
     Ok((read.into_inner() as u32, refused.into_inner() as u32))
 }
 
-/// Fuzzes a parser. Some files must have been refused, and some read, but for parsers that know every change by a checksum.
+/// Fuzzes a parser. Some files must have been refused, and some read, but for parsers that know every change by a
+/// checksum.
 fn check(parser: &Parser<'_>, cases: u32) {
     let (read, refused) = fuzz(parser, budget(cases)).unwrap_or_else(|broken| panic!("{}", broken.reason));
     println!("{}: {read} files read, {refused} refused", parser.name);
@@ -647,7 +652,8 @@ fn deep_images() {
     );
 }
 
-const CAMERA: &str = "[camera]\nposition = [4.0, 2.6, 6.0]\nlook_at = [0.6, 0.6, -0.5]\nvertical_fov = 48.0\nwidth = 16\nheight = 16\nnear = 0.5\nfar = 50.0\n";
+const CAMERA: &str = "[camera]\nposition = [4.0, 2.6, 6.0]\nlook_at = [0.6, 0.6, -0.5]\nvertical_fov = 48.0\nwidth = \
+    16\nheight = 16\nnear = 0.5\nfar = 50.0\n";
 const SMALL: scene::Options = scene::Options {
     size: Some((16, 16)),
     seed: None,
@@ -668,8 +674,10 @@ fn obj_meshes_and_their_materials() {
         _ => seen(folder, "roof.obj", "roof."),
     };
     // What files of other programs have besides.
-    let full = "mtllib roof.mtl\ng a b\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nvt 0 0\nvt 1 0\nvt 0.5 1 0\nvn 0 0 1\nvn 0 1 0\n\
-        usemtl glass\ns 1\nf 1/1/1 2/2/1 3/3/2\nf -4//-1 -3//1 -1//2\nf 1/1 2/2 3/3 4/1\nl 1 2 3\np 1 2\nusemtl tiles\nf 1 2 3 4 2\n";
+    let full = "mtllib roof.mtl\ng a b\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nv 0 1 0 1 1 1\nvt 0 0\nvt 1 0\nvt \
+        0.5 1 0\nvn 0 0 1\nvn 0 1 0\n\
+        usemtl glass\ns 1\nf 1/1/1 2/2/1 3/3/2\nf -4//-1 -3//1 -1//2\nf 1/1 2/2 3/3 4/1\nl 1 2 3\np 1 2\nusemtl \
+        tiles\nf 1 2 3 4 2\n";
     let mut seeds = seeds(&["data/roof.obj", "data/roof.mtl"]);
     seeds.push(("full.obj".to_owned(), full.as_bytes().to_vec()));
     let parser = Parser {
@@ -698,10 +706,13 @@ fn gltf(uri: Option<&str>) -> (String, Vec<u8>) {
     let uri = uri.map_or(String::new(), |u| format!(r#","uri":"{u}""#));
     let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,2]}}],
-"nodes":[{{"children":[1],"translation":[0.1,0.2,-0.5]}},{{"mesh":0,"rotation":[0,0.38,0,0.92],"scale":[1,1,2]}},{{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0.5,0,0,1]}}],
-"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}},{{"attributes":{{"POSITION":0}},"indices":1,"mode":4}}]}}],
+"nodes":[{{"children":[1],"translation":[0.1,0.2,-0.5]}},{{"mesh":0,"rotation":[0,0.38,0,0.92],"scale":[1,1,2]}},
+{{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0.5,0,0,1]}}],
+"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}},
+{{"attributes":{{"POSITION":0}},"indices":1,"mode":4}}]}}],
 "materials":[{{"name":"glass","alphaMode":"BLEND","pbrMetallicRoughness":{{"baseColorFactor":[0.3,0.7,0.9,0.4]}}}}],
-"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,0,-1],"max":[2,2,0.5]}},{{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,0,-1],"max":[2,2,0.5]}},
+{{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}}],
 "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":8}}],
 "buffers":[{{"byteLength":44{uri}}}]}}"#
     );
@@ -1093,8 +1104,8 @@ fn reports() {
     );
 }
 
-/// The machinery finds what it looks for: a parser that trusts a length and panics, one that takes the memory it is told to, and one that returns what
-/// is invalid; and the files that it keeps are small.
+/// The machinery finds what it looks for: a parser that trusts a length and panics, one that takes the memory it is
+/// told to, and one that returns what is invalid; and the files that it keeps are small.
 #[test]
 fn bad_parsers_are_found() {
     let seeds = || vec![("a.bin".to_owned(), [4u8, 0, 0, 0, 1, 2, 3, 4].repeat(8))];

@@ -113,7 +113,8 @@ pub struct Cost {
     pub both: Vec<f64>,
     /// Seconds of either pass likewise; none where they are not apart, as in networks on the CPU.
     pub passes: Option<Passed>,
-    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see [`Table::time`].
+    /// Whether no other method of the adapter is at once no slower and no worse, and one of both better; see
+    /// [`Table::time`].
     pub on_front: bool,
 }
 
@@ -179,8 +180,8 @@ impl LeftOut {
 }
 
 impl Table {
-    /// The time of a row that the front is about, against [`Cost::error`]: both passes, since what one method keeps in pass 1
-    /// another computes in pass 2 \[s\].
+    /// The time of a row that the front is about, against [`Cost::error`]: both passes, since what one method keeps in
+    /// pass 1 another computes in pass 2 \[s\].
     pub fn time(&self, cost: &Cost) -> f64 {
         Summary::of(&cost.both).median
     }

@@ -1,5 +1,5 @@
-//! What a frame's passes take on the device: drawn and blended, and in compute shaders with the network for every fragment, for those whose answer is used, and for those
-//! that can be seen.
+//! What a frame's passes take on the device: drawn and blended, and in compute shaders with the network for every
+//! fragment, for those whose answer is used, and for those that can be seen.
 
 use crate::evaluate::gpu::channel_differences;
 use crate::evaluate::{EvaluateError, Image, flip};
@@ -77,7 +77,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// Time of pass 2 in compute passes that skip nothing, as a multiple of that of a way: the median over the repetitions.
+    /// Time of pass 2 in compute passes that skip nothing, as a multiple of that of a way: the median over the
+    /// repetitions.
     pub fn speedup(&self, of: &FrameSamples) -> Option<f64> {
         let none = self.samples.iter().find(|s| s.way == Way::Compute(Skip::None))?;
         let ratios: Vec<f64> = none

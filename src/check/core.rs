@@ -155,7 +155,8 @@ fn as_wgsl(text: &str, language: CoreLanguage, set: CoreSet) -> Result<Result<St
             let vectors = (0..2 * stride(set) / 4).map(|_| "a, ").collect::<String>();
             let shader = format!(
                 "{}\nRWStructuredBuffer<float4> rows : register(u1);\n\n[numthreads(1, 1, 1)]\nvoid main(uint3 id : \
-                 SV_DispatchThreadID) {{\n    float4 a = rows[id.x];\n    rows[id.x] = nmt_core_weigh(a.x, a.y, {vectors}a.z, a.w, a);\n}}\n",
+                 SV_DispatchThreadID) {{\n    float4 a = rows[id.x];\n    rows[id.x] = nmt_core_weigh(a.x, a.y, \
+                 {vectors}a.z, a.w, a);\n}}\n",
                 without_atomics(text, language)?
             );
             hlsl::to_wgsl(&slangc, &shader, "main").map(Ok)

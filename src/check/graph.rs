@@ -1,7 +1,7 @@
 //! ONNX graphs executed as they stand in the file: nodes in their order, by the names of their inputs, in f32.
 //!
-//! It is an interpreter of the operators that exported networks use, not a runtime: an operator or an attribute that it does not know is an
-//! error, never a guess.
+//! It is an interpreter of the operators that exported networks use, not a runtime: an operator or an attribute that it
+//! does not know is an error, never a guess.
 
 use crate::export::onnx::{GraphProto, INPUT, NodeProto, OUTPUT, TensorProto, decode};
 use std::collections::HashMap;
@@ -171,7 +171,8 @@ mod tests {
     use crate::model::shipped;
     use prost::Message;
 
-    /// The reference to 5e-6, for both kinds of answers. Controls: a weight of another sign, and an operator in the place of another.
+    /// The reference to 5e-6, for both kinds of answers. Controls: a weight of another sign, and an operator in the
+    /// place of another.
     #[test]
     fn graphs_compute_the_reference() {
         for mlp in [random_mlp(&[32, 16], 2), shipped::named("recommended").unwrap()] {

@@ -1,4 +1,5 @@
-//! HLSL exports: read back from their text, compiled by two front ends, and executed as the WGSL that slangc makes of them.
+//! HLSL exports: read back from their text, compiled by two front ends, and executed as the WGSL that slangc makes of
+//! them.
 
 use super::shader::{Constants, glslang_hlsl, literals};
 use crate::export::shader::ENTRY;
@@ -11,7 +12,8 @@ pub const SLANGC_VARIABLE: &str = "NMT_SLANGC";
 /// Entry point of [`with_rows`].
 pub const ROWS: &str = "nmt_hlsl_rows";
 
-/// Constants that hold weights, from the text: the numbers between the braces of every `static const` whose name begins with `NMT_`.
+/// Constants that hold weights, from the text: the numbers between the braces of every `static const` whose name begins
+/// with `NMT_`.
 ///
 /// # Errors
 /// Names the constant that is not made of literals.
@@ -201,7 +203,8 @@ mod tests {
         }
     }
 
-    /// As slangc reads them, the plain forms compute the reference, and our own pass in f16, to the bit, and the packed ones sum in another order.
+    /// As slangc reads them, the plain forms compute the reference, and our own pass in f16, to the bit, and the packed
+    /// ones sum in another order.
     #[test]
     fn every_form_computes_the_reference() {
         let Some(slangc) = slang() else { return };
@@ -246,7 +249,8 @@ mod tests {
                 Dense::new(6, 1, numbers(6), numbers(1)).unwrap(),
             ];
             let mlp = Mlp::new("m", set, layers, Provenance::default()).unwrap();
-            // Name, scalar arguments, whether moments follow (an array, or a vector for the paper's), and numbers written to an array behind them.
+            // Name, scalar arguments, whether moments follow (an array, or a vector for the paper's), and numbers
+            // written to an array behind them.
             let functions: Vec<(&str, usize, bool, usize)> = match set {
                 FeatureSet::Paper => vec![
                     ("nmt_absorbance", 1, false, 0),
@@ -271,7 +275,8 @@ mod tests {
                     call.push("float4(nmt_in[9], nmt_in[10], nmt_in[11], nmt_in[12])".to_owned());
                 } else if moments {
                     body += &format!(
-                        "    float b{i}[{k}];\n    for (uint k{i} = 0; k{i} < {k}; k{i}++) {{ b{i}[k{i}] = nmt_in[9 + k{i}]; }}\n"
+                        "    float b{i}[{k}];\n    for (uint k{i} = 0; k{i} < {k}; k{i}++) {{ b{i}[k{i}] = nmt_in[9 + \
+                            k{i}]; }}\n"
                     );
                     call.push(format!("b{i}"));
                 }
@@ -288,7 +293,8 @@ mod tests {
                     body += &format!("    nmt_out[{i}] = {name}({}){part};\n", call.join(", "));
                 }
             }
-            let head = "StructuredBuffer<float> nmt_in;\nRWStructuredBuffer<float> nmt_out;\n[numthreads(1, 1, 1)]\nvoid probe() {\n";
+            let head = "StructuredBuffer<float> nmt_in;\nRWStructuredBuffer<float> nmt_out;\n[numthreads(1, 1, \
+                1)]\nvoid probe() {\n";
             let whole = format!("{}{head}{body}}}\n", source(&mlp, Format::HLSL));
             if let Some(result) =
                 shader::glslang_hlsl(&whole, "probe", &tempfile::tempdir().unwrap().path().join("x.spv"))

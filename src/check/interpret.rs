@@ -1,6 +1,8 @@
-//! Runs shader functions on the CPU, from naga's intermediate representation: what the source says is computed, not only parsed.
+//! Runs shader functions on the CPU, from naga's intermediate representation: what the source says is computed, not
+//! only parsed.
 //!
-//! Arithmetic is f32; where the source says f16, every result is rounded to it. Many rows run side by side in lanes. The subset of the language that exports use is supported; anything else is an error that names it.
+//! Arithmetic is f32; where the source says f16, every result is rounded to it. Many rows run side by side in lanes.
+//! The subset of the language that exports use is supported; anything else is an error that names it.
 
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::front::Typifier;
@@ -225,8 +227,8 @@ impl<const L: usize> Value<L> {
         }
     }
 
-    /// Product as shading languages mean it: a matrix times a vector is the sum of its columns by the vector's components, in order. Every number on the way
-    /// is rounded.
+    /// Product as shading languages mean it: a matrix times a vector is the sum of its columns by the vector's
+    /// components, in order. Every number on the way is rounded.
     fn multiply(&self, other: &Self, round: &impl Fn(f32) -> f32) -> Result<Self> {
         let times = |a: f32, b: f32| round(a * b);
         match (self.columns(), other) {
@@ -420,7 +422,8 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// Runs a function; the result is its value, and what its pointer arguments point to in the end, at their places among the arguments.
+    /// Runs a function; the result is its value, and what its pointer arguments point to in the end, at their places
+    /// among the arguments.
     fn run<const L: usize>(
         &self,
         handle: Handle<Function>,
@@ -551,7 +554,8 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             match statement {
                 Statement::Emit(range) => {
                     for handle in range.clone() {
-                        // Addresses are worked out where they are used, and so are lists, of which one item may be all that is wanted.
+                        // Addresses are worked out where they are used, and so are lists, of which one item may be all
+                        // that is wanted.
                         if self.place(handle).is_none() && self.list(handle).is_none() {
                             let value = self.evaluate(handle)?;
                             self.values[handle.index()] = Some(value);
@@ -679,7 +683,8 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
         }
     }
 
-    /// A part of a composite. Of a constant or a list only that part is brought into the lanes: front ends repeat a whole constant array at each use.
+    /// A part of a composite. Of a constant or a list only that part is brought into the lanes: front ends repeat a
+    /// whole constant array at each use.
     fn item(&mut self, base: Handle<Expression>, index: usize) -> Result<Value<L>> {
         match &self.function.expressions[base] {
             Expression::Constant(constant) => self.interpreter.constants[constant.index()]
@@ -877,7 +882,8 @@ mod tests {
             ),
             Ok(18.0)
         );
-        let matrix = "fn f(x: f32) -> f32 { let m = mat2x2<f32>(vec2<f32>(1.0, 2.0), vec2<f32>(3.0, x)); return (m * vec2<f32>(10.0, 1.0)).y; }";
+        let matrix = "fn f(x: f32) -> f32 { let m = mat2x2<f32>(vec2<f32>(1.0, 2.0), vec2<f32>(3.0, x)); return (m * \
+            vec2<f32>(10.0, 1.0)).y; }";
         assert_eq!(call(matrix, &[4.0]), Ok(24.0));
         assert_eq!(
             call(
@@ -912,7 +918,8 @@ mod tests {
 
     #[test]
     fn branches_calls_and_selects() {
-        let source = "fn g(x: f32) -> f32 { if x > 1.0 { return 10.0; } return select(1.0, 2.0, x > 0.0); } fn f(x: f32) -> f32 { return g(x) + 0.5; }";
+        let source = "fn g(x: f32) -> f32 { if x > 1.0 { return 10.0; } return select(1.0, 2.0, x > 0.0); } fn f(x: \
+            f32) -> f32 { return g(x) + 0.5; }";
         assert_eq!(call(source, &[2.0]), Ok(10.5));
         assert_eq!(call(source, &[0.5]), Ok(2.5));
         assert_eq!(call(source, &[-1.0]), Ok(1.5));
@@ -936,7 +943,8 @@ mod tests {
             half("return dot(vec3<f32>(x, 1.0, 1.0), vec3<f32>(1.0));", 2048.0),
             Ok(2050.0)
         );
-        let product = "let m = mat2x2<f16>(vec2<f16>(1.0h, 2.0h), vec2<f16>(1.0h, 1.0h)); return f32((m * vec2<f16>(f16(x), 1.0h)).x);";
+        let product = "let m = mat2x2<f16>(vec2<f16>(1.0h, 2.0h), vec2<f16>(1.0h, 1.0h)); return f32((m * \
+            vec2<f16>(f16(x), 1.0h)).x);";
         assert_eq!(half(product, 2048.0), Ok(2048.0));
         assert_eq!(half("return f32(max(f16(x) * 0.1h, 0.0h));", 1.0), Ok(0.099975586));
     }

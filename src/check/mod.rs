@@ -1,7 +1,8 @@
 //! Exports held against the network: what stands in a folder is read, parsed, compared bit for bit and executed.
 //!
-//! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features swapped and one with a
-//! transposed layer must not pass in the network's place. Where a control passes, the check reports itself as failed.
+//! Every comparison comes with controls that must fail: a network with one perturbed weight, one with two features
+//! swapped and one with a transposed layer must not pass in the network's place. Where a control passes, the check
+//! reports itself as failed.
 
 pub mod core;
 pub mod graph;
@@ -26,13 +27,14 @@ use rows::{CheckRows, RowKind};
 use std::cell::OnceCell;
 use std::path::Path;
 
-/// Greatest absolute error in distribution: raw features of the `paper` set reach logits of 20, where f32 sums lose this much; features of the recentred sets are of
-/// the order of 1.
+/// Greatest absolute error in distribution: raw features of the `paper` set reach logits of 20, where f32 sums lose
+/// this much; features of the recentred sets are of the order of 1.
 pub fn bar_in_distribution(set: FeatureSet) -> f64 {
     set.spec().tolerances.single
 }
 
-/// An export may be this many times as far from f64 as our own f32 forward pass is on the same rows: in the mean in distribution, at worst beyond.
+/// An export may be this many times as far from f64 as our own f32 forward pass is on the same rows: in the mean in
+/// distribution, at worst beyond.
 pub const BAR_FACTOR: f64 = 3.0;
 
 /// Half a unit in the last place of 1: what rounding the answer itself costs, where our own pass happens to be exact.
@@ -196,8 +198,9 @@ const PERTURBATION: f32 = 1.0 / 64.0;
 const HALF_PERTURBATION: f32 = 1.0 / 8.0;
 
 impl Reference {
-    /// What `whole` answers. Where units were taken out, rows in distribution are held to the whole network all the same; extreme ones, on which such units may fire, to
-    /// what is left, which is the same network wherever they do not.
+    /// What `whole` answers. Where units were taken out, rows in distribution are held to the whole network all the
+    /// same; extreme ones, on which such units may fire, to what is left, which is the same network wherever they do
+    /// not.
     fn new(whole: &Mlp, left: Option<(&Mlp, &Pruned)>, in_distribution: usize, extreme: usize) -> Result<Self, String> {
         let network = left.map_or(whole, |(left, _)| left);
         let rows = vec![
@@ -214,7 +217,8 @@ impl Reference {
                     network
                 };
                 let exact = subject.forward_batch::<f64>(&rows.features);
-                // Two f32 passes of ours, with and without fused multiply-adds: the one that is further off says what f32 costs.
+                // Two f32 passes of ours, with and without fused multiply-adds: the one that is further off says what
+                // f32 costs.
                 let passes = [
                     subject.forward_batch::<f32>(&rows.features),
                     subject.predict(&rows.features),
@@ -238,12 +242,17 @@ impl Reference {
             let firing: Vec<String> = rows
                 .iter()
                 .map(|r| {
-                    let fired = r.features.chunks_exact(width).filter(|row| fires(whole, &pruned.units, row)).count();
+                    let fired = r
+                        .features
+                        .chunks_exact(width)
+                        .filter(|row| fires(whole, &pruned.units, row))
+                        .count();
                     format!("{fired} of {} rows ({})", r.features.len() / width, r.kind.name())
                 })
                 .collect();
             format!(
-                "a unit that was taken out would fire on {}; the first kind is held to the whole network, the second to what is left of it",
+                "a unit that was taken out would fire on {}; the first kind is held to the whole network, the second \
+                    to what is left of it",
                 firing.join(" and on ")
             )
         });
@@ -288,8 +297,8 @@ impl Reference {
         let mut mean_bar = bar;
         let in_distribution = rows.kind == RowKind::InDistribution;
         match (precision, mean) {
-            // The worst of many rows is chance, and another order of summation is no error: what is held to our own passes is the mean, and all but the
-            // coarse logarithms and exponentials of devices with it.
+            // The worst of many rows is chance, and another order of summation is no error: what is held to our own
+            // passes is the mean, and all but the coarse logarithms and exponentials of devices with it.
             (Precision::F32, _) if in_distribution => {
                 bar = most;
                 mean_bar = (BAR_FACTOR * ours.mean()).max(0.05 * most);
@@ -344,7 +353,8 @@ impl Reference {
             } = bars;
             if !bars.hold(&export) {
                 problems.push(format!(
-                    "{}: worst error {:.2e}, mean {:.2e} against f64, {} non-finite; at most {bar:.2e} and {mean_bar:.2e} are allowed (our own pass: {:.2e}, {:.2e})",
+                    "{}: worst error {:.2e}, mean {:.2e} against f64, {} non-finite; at most {bar:.2e} and \
+                        {mean_bar:.2e} are allowed (our own pass: {:.2e}, {:.2e})",
                     rows.kind.name(),
                     export.worst(),
                     export.mean(),
@@ -564,8 +574,8 @@ fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
 
 /// Checks every export of a network that stands in a folder; nothing is written.
 ///
-/// A format that is not there is a failed finding that names the file. An export that says that units were taken out must hold what is then left of the
-/// network, and is held to the whole network's answers in distribution.
+/// A format that is not there is a failed finding that names the file. An export that says that units were taken out
+/// must hold what is then left of the network, and is held to the whole network's answers in distribution.
 pub fn check(
     mlp: &Mlp,
     folder: &Path,
@@ -805,7 +815,9 @@ fn check_metal(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &m
     ));
     findings.push(Finding::new(format, "nmt", "weights are used as they stand", used));
     let why =
-        "Apple's compiler alone could tell; naga validated the module that it wrote this text of, and the WGSL of the same network runs".to_owned();
+        "Apple's compiler alone could tell; naga validated the module that it wrote this text of, and the WGSL of the \
+            same network runs"
+            .to_owned();
     findings.push(Finding::skipped(
         format,
         "metal",
@@ -831,7 +843,9 @@ fn check_spirv(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &m
             "not installed (Debian: spirv-tools)".to_owned(),
         ),
     });
-    let why = "WebGPU takes no SPIR-V; naga validated the module that it wrote this of, and the WGSL of the same network runs".to_owned();
+    let why = "WebGPU takes no SPIR-V; naga validated the module that it wrote this of, and the WGSL of the same \
+        network runs"
+        .to_owned();
     findings.push(Finding::skipped(format, "vulkan", "computes the reference", why));
 }
 
@@ -939,7 +953,8 @@ mod tests {
         }
     }
 
-    /// Exports without silent units hold against the whole network, whatever their format. Controls: a unit taken out that fires, and a header that names another.
+    /// Exports without silent units hold against the whole network, whatever their format. Controls: a unit taken out
+    /// that fires, and a header that names another.
     #[test]
     fn pruned_exports_are_held_to_the_whole_network() {
         let mut layers = random_mlp(&[12, 9], 1).layers().to_vec();

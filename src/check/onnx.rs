@@ -87,7 +87,8 @@ pub fn library() -> Result<PathBuf, String> {
             )),
         },
         _ => Err(format!(
-            "not found: set {LIBRARY_VARIABLE} to libonnxruntime.so, for example the one inside PyPI's onnxruntime wheel"
+            "not found: set {LIBRARY_VARIABLE} to libonnxruntime.so, for example the one inside PyPI's onnxruntime \
+                wheel"
         )),
     }
 }

@@ -40,7 +40,8 @@ impl RowKind {
     }
 }
 
-/// `count` rows from the distribution that the network's provenance names, or its feature set's usual one, pixels that no training has seen.
+/// `count` rows from the distribution that the network's provenance names, or its feature set's usual one, pixels that
+/// no training has seen.
 ///
 /// # Errors
 /// In words, where the provenance holds a configuration that cannot be used.
@@ -51,7 +52,8 @@ pub fn in_distribution(mlp: &Mlp, count: usize) -> Result<CheckRows, String> {
     })
 }
 
-/// Features of `count` rows as [`in_distribution`] has them, of the random pixels of a seed; those of the check have another seed than a caller may choose.
+/// Features of `count` rows as [`in_distribution`] has them, of the random pixels of a seed; those of the check have
+/// another seed than a caller may choose.
 ///
 /// # Errors
 /// As [`in_distribution`].

@@ -11,7 +11,8 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-/// Parses and validates a shader export that naga reads. Nothing but f16, where the format says so, may be asked of a device.
+/// Parses and validates a shader export that naga reads. Nothing but f16, where the format says so, may be asked of a
+/// device.
 ///
 /// # Errors
 /// The compiler's own words, with the place.
@@ -249,7 +250,8 @@ pub fn glslang(source: &str) -> Option<Result<(), String>> {
 /// The compiler of GLSL and HLSL.
 const GLSLANG: &str = "glslangValidator";
 
-/// Runs glslangValidator on a whole HLSL compute shader, which it makes SPIR-V of; none where the program is not installed.
+/// Runs glslangValidator on a whole HLSL compute shader, which it makes SPIR-V of; none where the program is not
+/// installed.
 ///
 /// # Errors
 /// Its own words.
@@ -279,7 +281,8 @@ mod tests {
         String::from_utf8(encode(mlp, format).unwrap()).unwrap()
     }
 
-    /// Sizes that are and are not multiples of four, one to three layers: every form validates, reads back and computes the reference's numbers.
+    /// Sizes that are and are not multiples of four, one to three layers: every form validates, reads back and computes
+    /// the reference's numbers.
     #[test]
     fn every_form_of_every_size_computes_the_reference() {
         let mut rng = crate::numeric::rng::stream(3, 0, 0);
@@ -311,7 +314,8 @@ mod tests {
         }
     }
 
-    /// With hidden layers in f16 the plain form computes our own pass to the bit; the packed one sums in another order. Control: f32.
+    /// With hidden layers in f16 the plain form computes our own pass to the bit; the packed one sums in another order.
+    /// Control: f32.
     #[test]
     fn halves_of_every_size_compute_our_own_pass() {
         let mut rng = stream(3, 1, 0);
@@ -421,8 +425,8 @@ mod tests {
         }
     }
 
-    /// The shaders' feature functions against the f64 features of random pixels. Tolerance 3e-7 + 1e-6 relative: f32 depths in, a few
-    /// operations. Control: without the least depth (w_min = 0) they are off.
+    /// The shaders' feature functions against the f64 features of random pixels. Tolerance 3e-7 + 1e-6 relative: f32
+    /// depths in, a few operations. Control: without the least depth (w_min = 0) they are off.
     #[test]
     fn feature_functions_compute_the_features() {
         use crate::pixel::{Pixel, ViewZ, absorbance};
@@ -492,8 +496,9 @@ mod tests {
         }
     }
 
-    /// The functions of the recentred features in both languages against their Rust twin in f32, for 4, 6 and 8 moments: what is known, to 2e-6, and the features, to
-    /// what one ulp of the moments makes of them. Control: swapped ends of the pixel.
+    /// The functions of the recentred features in both languages against their Rust twin in f32, for 4, 6 and 8
+    /// moments: what is known, to 2e-6, and the features, to what one ulp of the moments makes of them. Control:
+    /// swapped ends of the pixel.
     #[test]
     fn recentred_shaders_follow_their_twin() {
         fn compare<const K: usize>(set: FeatureSet) {
@@ -603,8 +608,9 @@ mod tests {
         compare::<8>(FeatureSet::Recentred8);
     }
 
-    /// `nmt_fragment_transmittance`, which branches, against `nmt_recentred`, which computes everything, with `nmt_transmittance` behind it: known answers to the bit,
-    /// the network's to 1e-6, for pixels of every kind of answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
+    /// `nmt_fragment_transmittance`, which branches, against `nmt_recentred`, which computes everything, with
+    /// `nmt_transmittance` behind it: known answers to the bit, the network's to 1e-6, for pixels of every kind of
+    /// answer, ties, thin and nearly opaque ones. Control: what is known taken for unknown.
     #[test]
     fn early_answers_are_those_of_the_whole_computation() {
         fn compare<const K: usize>(set: FeatureSet) {
@@ -688,9 +694,11 @@ mod tests {
         compare::<8>(FeatureSet::Recentred8);
     }
 
-    /// `nmt_hidden_weight` and `nmt_first_hidden_depth` against their scalar twins and the truth, for adversarial pixels, 4, 6 and 8 moments. No fragment and all behind it
-    /// weigh more in f64 than the shader says, asked about it or about its depth; what the f64 twin hides with twice the noise and a weight of a tenth less, the shader hides; the depth is the f32 twin's to 1e-5.
-    /// `nmt_visible_transmittance` is made of these to the bit, and each switch turns off its own rule alone. Control: with a quarter of the share behind, weights are too small.
+    /// `nmt_hidden_weight` and `nmt_first_hidden_depth` against their scalar twins and the truth, for adversarial
+    /// pixels, 4, 6 and 8 moments. No fragment and all behind it weigh more in f64 than the shader says, asked about it
+    /// or about its depth; what the f64 twin hides with twice the noise and a weight of a tenth less, the shader hides;
+    /// the depth is the f32 twin's to 1e-5. `nmt_visible_transmittance` is made of these to the bit, and each switch
+    /// turns off its own rule alone. Control: with a quarter of the share behind, weights are too small.
     #[test]
     fn shaders_hide_what_their_twin_hides() {
         use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH};
@@ -876,7 +884,8 @@ mod tests {
                     }
                 }
                 println!(
-                    "{format:?} K = {K}: {weighed} weighed, {hidden} hidden, {faint} faint, {plain} plain, {controls} controls"
+                    "{format:?} K = {K}: {weighed} weighed, {hidden} hidden, {faint} faint, {plain} plain, {controls} \
+                        controls"
                 );
                 assert!(
                     weighed > 50 && hidden > 20 && faint > 20 && plain > 100 && controls > 2,

@@ -1,4 +1,5 @@
-//! MSL and SPIR-V exports, which naga made: weights read back from what stands there, SPIR-V validated. Neither is executed here.
+//! MSL and SPIR-V exports, which naga made: weights read back from what stands there, SPIR-V validated. Neither is
+//! executed here.
 
 use super::shader::{Constants, literals, run_on, verdict};
 use crate::export::translate::instructions;
@@ -38,7 +39,8 @@ pub fn metal_uses(text: &str, constants: &Constants, entry: &str) -> Result<(), 
         .ok_or_else(|| format!("there is no {entry}"))?;
     let mut found = literals(body)?.into_iter().filter(|x| *x != 0.0);
     for (name, numbers) in constants {
-        // Biases that are added between blocks of weights are found by name or not at all: what is in order are weights.
+        // Biases that are added between blocks of weights are found by name or not at all: what is in order are
+        // weights.
         let named = body
             .match_indices(name.as_str())
             .any(|(at, _)| !body[at + name.len()..].starts_with(|c: char| c.is_ascii_alphanumeric()));
@@ -203,8 +205,9 @@ mod tests {
         assert!(spirv_constants(b"not SPIR-V").is_err() && spirv_constants(&[]).is_err());
     }
 
-    /// The compute shaders of the SPIR-V module, in the WGSL that it is made of, on a GPU: what the functions answer to the same numbers on the CPU, to 1e-4 (logarithms
-    /// and exponentials differ by some ulp). Control: the answers of the row before.
+    /// The compute shaders of the SPIR-V module, in the WGSL that it is made of, on a GPU: what the functions answer to
+    /// the same numbers on the CPU, to 1e-4 (logarithms and exponentials differ by some ulp). Control: the answers of
+    /// the row before.
     #[test]
     fn entry_points_answer_rows_and_fragments() {
         let Some(gpu) = crate::gpu::tests::gpu() else { return };

@@ -28,7 +28,8 @@ pub struct Check {
 /// Options that `check` and `run` share.
 #[derive(Args, Clone)]
 pub struct CheckArguments {
-    /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the same.
+    /// Tools whose absence is a failure: onnxruntime, glslangValidator, slangc, spirv-val, gpu. NMT_REQUIRE does the
+    /// same.
     #[arg(long, value_delimiter = ',', num_args = 1.., value_name = "TOOLS")]
     require: Vec<String>,
 }
@@ -119,12 +120,15 @@ pub fn to_json(finding: &Finding) -> Value {
         .iter()
         .map(|n| {
             json!({
-                "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(), "worst_error": n.export.worst(),
-                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar, "mean_bar": n.mean_bar,
+                "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(),
+                    "worst_error": n.export.worst(),
+                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar,
+                    "mean_bar": n.mean_bar,
             })
         })
         .collect();
-    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status, "reason": reason, "note": finding.note, "numbers": numbers })
+    json!({ "format": finding.format.name(), "tool": finding.tool, "question": finding.question, "status": status,
+        "reason": reason, "note": finding.note, "numbers": numbers })
 }
 
 /// A table of all findings, then the reasons of those that did not pass.

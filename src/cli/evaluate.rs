@@ -60,7 +60,8 @@ pub struct Evaluate {
     /// Evaluate shadows instead of images: how much light reaches points of a scene that has a light, against rays.
     #[arg(long, conflicts_with_all = ["gpu", "tint", "frames"])]
     shadows: bool,
-    /// Points of surfaces that are asked for their light; of the floor under the scene there are about five times as many.
+    /// Points of surfaces that are asked for their light; of the floor under the scene there are about five times as
+    /// many.
     #[arg(long, value_name = "N", requires = "shadows", default_value_t = 2000,
         value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     shadow_points: u32,
@@ -76,7 +77,8 @@ pub struct Evaluate {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     frames: Option<u32>,
     /// Angle of the camera between two frames [degrees].
-    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = frames::turn, allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = frames::turn,
+        allow_negative_numbers = true)]
     degrees_per_frame: f64,
     /// Draw them on the GPU too, those that have a shader, and compare with the CPU's images.
     #[arg(long)]

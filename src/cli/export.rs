@@ -50,8 +50,8 @@ pub struct FormatArguments {
     /// "-f16" has hidden layers in f16. Without it: all but the plain ones.
     #[arg(long, value_parser = format(), value_delimiter = ',', num_args = 1..)]
     format: Vec<Format>,
-    /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered for
-    /// wgsl, hlsl, metal and spirv.
+    /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered
+    /// for wgsl, hlsl, metal and spirv.
     #[arg(long, value_enum, default_value = "f32")]
     precision: PrecisionName,
 }
@@ -139,7 +139,8 @@ impl Export {
             let result = |(f, path): (&Format, &PathBuf)| {
                 json!({
                     "format": f.name(), "network": mlp.shape(), "file": path, "multiply_adds": mlp.multiply_adds(),
-                    "multiply_adds_before": whole.multiply_adds(), "pruned_units": mlp.provenance.pruned.as_ref().map(|p| p.count()),
+                    "multiply_adds_before": whole.multiply_adds(),
+                        "pruned_units": mlp.provenance.pruned.as_ref().map(|p| p.count()),
                 })
             };
             let results = formats.iter().zip(&paths).map(result).collect();

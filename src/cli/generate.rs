@@ -62,9 +62,12 @@ impl Generate {
             ui.print_json(
                 "generate",
                 vec![json!({
-                    "dataset": shown(&self.out), "hash": dataset.manifest.hash, "pairs_per_second": pairs as f64 / seconds, "seconds": seconds,
-                    "training_pixels": dataset.manifest.training.pixels, "training_pairs": dataset.manifest.training.pairs,
-                    "validation_pixels": dataset.manifest.validation.pixels, "validation_pairs": dataset.manifest.validation.pairs,
+                    "dataset": shown(&self.out), "hash": dataset.manifest.hash,
+                        "pairs_per_second": pairs as f64 / seconds, "seconds": seconds,
+                    "training_pixels": dataset.manifest.training.pixels,
+                        "training_pairs": dataset.manifest.training.pairs,
+                    "validation_pixels": dataset.manifest.validation.pixels,
+                        "validation_pairs": dataset.manifest.validation.pairs,
                 })],
             )?;
         } else {

@@ -8,7 +8,8 @@ pub const EXIT_CODE: u8 = 130;
 static GRACEFUL: AtomicBool = AtomicBool::new(false);
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Takes over SIGINT, SIGTERM and SIGHUP. Outside [`gracefully`], and at the second signal within it, the process ends at once.
+/// Takes over SIGINT, SIGTERM and SIGHUP. Outside [`gracefully`], and at the second signal within it, the process ends
+/// at once.
 pub fn install() {
     // Where no handler can be installed the system's own ends the process, which is what would be done anyway.
     let _ = ctrlc::set_handler(|| {

@@ -122,10 +122,14 @@ impl Predict {
             ui.print_json(
                 "predict",
                 vec![json!({
-                    "network": shape, "fragments": list.len(), "pixels": list.pixels(), "depth_complexity": list.depth_complexity(),
-                    "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
-                    "seconds": seconds, "fragments_per_second": rate, "file": shown(&self.out), "skip": skip, "frame": frame, "network_rows": tally.rows,
-                    "seconds_pass_1": tally.seconds_pass_1, "seconds_pass_2": tally.seconds_pass_2, "fragments_by_class": by_class(&tally),
+                    "network": shape, "fragments": list.len(), "pixels": list.pixels(),
+                        "depth_complexity": list.depth_complexity(),
+                    "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(),
+                        "nonfinite": error.nonfinite(),
+                    "seconds": seconds, "fragments_per_second": rate, "file": shown(&self.out), "skip": skip,
+                        "frame": frame, "network_rows": tally.rows,
+                    "seconds_pass_1": tally.seconds_pass_1, "seconds_pass_2": tally.seconds_pass_2,
+                        "fragments_by_class": by_class(&tally),
                 })],
             )?;
         } else {
@@ -156,7 +160,8 @@ pub fn say_visible_bound(ui: &Ui, list: &FragmentList) {
     let brightest = list.brightest();
     if brightest > 1.0 {
         ui.warn(&format!(
-            "--skip visible: colours reach {brightest}, so channels of the image change by up to {brightest}/512 instead of 1/512"
+            "--skip visible: colours reach {brightest}, so channels of the image change by up to {brightest}/512 \
+                instead of 1/512"
         ));
     }
 }

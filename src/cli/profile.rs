@@ -27,8 +27,9 @@ pub struct Profile {
     /// Networks to look into; those that come with the program without it.
     #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
-    /// Error to keep: the image's mean squared error, or that of T where the list makes no image. Without it that of half a display step, or a
-    /// fifth more than the best network's if that is greater; with --specialise the network's own.
+    /// Error to keep: the image's mean squared error, or that of T where the list makes no image. Without it that of
+    /// half a display step, or a fifth more than the best network's if that is greater; with --specialise the network's
+    /// own.
     #[arg(long, value_name = "E")]
     target_error: Option<f64>,
     /// Retrain this network on the scene, and make it as small as the error allows.
@@ -37,11 +38,12 @@ pub struct Profile {
     /// Take out of this network what does nothing on the scene.
     #[arg(long, value_name = "MODEL.json", requires = "out", conflicts_with = "model")]
     simplify: Option<PathBuf>,
-    /// With --specialise: retrain at the network's own size (keep), take the smallest size that keeps the error (smallest), or the size with
-    /// the least error (best).
+    /// With --specialise: retrain at the network's own size (keep), take the smallest size that keeps the error
+    /// (smallest), or the size with the least error (best).
     #[arg(long, value_enum, default_value = "smallest", requires = "specialise")]
     network_size: SizeName,
-    /// Folder for profile.json, profile.svg and a configuration; with --specialise or --simplify the model file to write.
+    /// Folder for profile.json, profile.svg and a configuration; with --specialise or --simplify the model file to
+    /// write.
     #[arg(long, value_name = "DIR|MODEL.json")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -143,7 +145,8 @@ impl Profile {
             .file_stem()
             .map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
         let result = json!({
-            "scene": self.fragments, "facts": facts, "networks": networks, "skipping": skips, "skipping_of": timed.name(), "recommendation": recommendation,
+            "scene": self.fragments, "facts": facts, "networks": networks, "skipping": skips,
+                "skipping_of": timed.name(), "recommendation": recommendation,
             "remarks": remarks,
         });
         if let Some(folder) = &self.out {
@@ -197,15 +200,21 @@ impl Profile {
         file::save(out, replace, &made.mlp.clone().renamed(name_for(out))?)?;
         let chosen = &made.attempts[made.chosen];
         if !chosen.kept {
-            ui.warn("warning: no size keeps the error on the whole scene and on what was held out; the network written is the first one, retrained at its own size");
+            ui.warn(
+                "warning: no size keeps the error on the whole scene and on what was held out; the network written \
+                is the first one, retrained at its own size",
+            );
         }
         if ui.json() {
             ui.print_json(
                 "profile",
                 vec![json!({
-                    "scene": self.fragments, "specialised": out, "from": model, "target_error": made.target_error, "target_error_held_out": made.target_held_out,
-                    "network_size": plan.size, "kept": chosen.kept, "before": made.before, "after": chosen, "errors_before": made.errors_before, "errors_after": made.errors_after,
-                    "attempts": made.attempts, "training_rows": made.rows[0], "held_out_rows": made.rows[1], "seconds": made.seconds,
+                    "scene": self.fragments, "specialised": out, "from": model, "target_error": made.target_error,
+                        "target_error_held_out": made.target_held_out,
+                    "network_size": plan.size, "kept": chosen.kept, "before": made.before, "after": chosen,
+                        "errors_before": made.errors_before, "errors_after": made.errors_after,
+                    "attempts": made.attempts, "training_rows": made.rows[0], "held_out_rows": made.rows[1],
+                        "seconds": made.seconds,
                 })],
             )?;
         } else {
@@ -221,7 +230,8 @@ impl Profile {
             simplify(&mlp, &rows.features).with_context(|| model.display().to_string())?;
         if !report.identical_bits {
             bail!(
-                "{}: without its silent units the network gives other bits, which is a fault of this program; nothing was written",
+                "{}: without its silent units the network gives other bits, which is a fault of this program; nothing \
+                    was written",
                 model.display()
             );
         }
@@ -230,7 +240,10 @@ impl Profile {
         if ui.json() {
             ui.print_json(
                 "profile",
-                vec![json!({ "scene": self.fragments, "simplified": out, "from": model, "network": left.shape(), "report": report })],
+                vec![
+                    json!({ "scene": self.fragments, "simplified": out, "from": model, "network": left.shape(),
+                    "report": report }),
+                ],
             )?;
         } else {
             ui.print(&simplified(&mlp, &left, &report, out))?;
@@ -416,7 +429,8 @@ fn skips_table(timed: &Mlp, skips: &[skip::Skipped]) -> String {
     }
     let repeat = skips.first().map_or(0, |s| s.raw_seconds_pass_2.len());
     format!(
-        "{}{} on {} threads, medians of {repeat} repetitions by turns; changes are of a channel, against exact (bound 1/512 = {:.2e})\n\n",
+        "{}{} on {} threads, medians of {repeat} repetitions by turns; changes are of a channel, against exact (bound \
+            1/512 = {:.2e})\n\n",
         table(&rows),
         timed.name(),
         rayon::current_num_threads(),
@@ -520,7 +534,8 @@ fn simplified(mlp: &Mlp, left: &Mlp, report: &Report, out: &Path) -> String {
         text += &format!("{} is always {}: folded into the biases\n", c.name, c.value);
     }
     text + &format!(
-        "without silent units: identical bits on {} rows; f32 error of all of it {:.2e} (worst {:.2e}), before {:.2e} (worst {:.2e})\n{}\n{}\n",
+        "without silent units: identical bits on {} rows; f32 error of all of it {:.2e} (worst {:.2e}), before {:.2e} \
+            (worst {:.2e})\n{}\n{}\n",
         report.rows,
         report.rounding.rms,
         report.rounding.worst,

@@ -80,7 +80,8 @@ impl Run {
 
         let mut summary = trained.to_json();
         let more = json!({
-            "name": config.name, "config": settings, "transmittance_mse": error.mse(), "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
+            "name": config.name, "config": settings, "transmittance_mse": error.mse(),
+                "transmittance_worst_error": error.worst(), "nonfinite": error.nonfinite(),
             "fragments": error.count(), "generate_seconds": generated, "total_seconds": start.elapsed().as_secs_f64(),
             "checks": findings.iter().map(to_json).collect::<Vec<_>>(), "folder": shown(&out),
         });
@@ -129,7 +130,8 @@ fn claim(out: &Path, settings: &Value, force: bool) -> anyhow::Result<(Lock, boo
         None => Ok((lock, true)),
         Some(_) if force || !kept => Ok((lock, false)),
         Some(difference) => bail!(
-            "{}: holds the run of the configuration '{}', which is another ({difference}); choose another --out, or pass --force to replace it",
+            "{}: holds the run of the configuration '{}', which is another ({difference}); choose another --out, or \
+                pass --force to replace it",
             out.display(),
             before["name"].as_str().unwrap_or("of an earlier version")
         ),

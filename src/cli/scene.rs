@@ -183,7 +183,8 @@ fn placed(path: &Path, camera: &Camera) -> String {
         position, look_at, up, ..
     } = camera;
     format!(
-        "{}: no camera is given; it is seen by\n[camera]\nposition = {position:.4?}\nlook_at = {look_at:.4?}\nup = {up:?}\nvertical_fov = {}\n\
+        "{}: no camera is given; it is seen by\n[camera]\nposition = {position:.4?}\nlook_at = {look_at:.4?}\nup = \
+            {up:?}\nvertical_fov = {}\n\
          width = {}\nheight = {}\nnear = {}\nfar = {}",
         path.display(),
         camera.vertical_fov,
@@ -239,7 +240,8 @@ impl Scene {
             ui.print_json(
                 "scene",
                 vec![json!({
-                    "scene": shown(Path::new(&self.scene)), "file": shown(&self.out), "pixels": list.pixels(), "width": width, "height": height, "fragments": list.len(),
+                    "scene": shown(Path::new(&self.scene)), "file": shown(&self.out), "pixels": list.pixels(),
+                        "width": width, "height": height, "fragments": list.len(),
                     "depth_complexity": list.depth_complexity(), "seconds": seconds,
                 })],
             )?;

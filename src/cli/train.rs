@@ -94,7 +94,8 @@ impl TrainOptions {
         match (checkpoint.exists(), self.resume) {
             (true, false) if !self.force => {
                 bail!(
-                    "{}: the checkpoint of an interrupted training; pass --resume to continue it, or --force to train anew",
+                    "{}: the checkpoint of an interrupted training; pass --resume to continue it, or --force to train \
+                        anew",
                     checkpoint.display()
                 )
             }
@@ -194,7 +195,8 @@ impl Trained {
     pub fn to_json(&self) -> Value {
         let p = &self.mlp.provenance;
         json!({
-            "network": self.mlp.shape(), "backend": p.backend, "adapter": self.adapter, "epochs": p.epochs, "best_epoch": p.best_epoch,
+            "network": self.mlp.shape(), "backend": p.backend, "adapter": self.adapter, "epochs": p.epochs,
+                "best_epoch": p.best_epoch,
             "training_loss": p.training_loss, "validation_loss": p.validation_loss,
             "seconds": self.seconds, "samples_per_second": self.samples_per_second,
         })

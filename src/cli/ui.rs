@@ -190,7 +190,8 @@ fn columns() -> usize {
     terminal_size::terminal_size().map_or(80, |(width, _)| usize::from(width.0).max(80))
 }
 
-/// Rows as text in aligned columns; the first row is the head. Columns that do not fit the terminal follow below, behind the first once more.
+/// Rows as text in aligned columns; the first row is the head. Columns that do not fit the terminal follow below,
+/// behind the first once more.
 pub fn table(rows: &[Vec<String>]) -> String {
     table_within(rows, columns())
 }

@@ -53,7 +53,8 @@ pub enum Weighting {
     /// All alike.
     #[default]
     Uniform,
-    /// By what an error of its T does to the pixel's colour: alpha², times the rows that it stands for where only some of a pixel's were chosen.
+    /// By what an error of its T does to the pixel's colour: alpha², times the rows that it stands for where only some
+    /// of a pixel's were chosen.
     Image,
 }
 
@@ -93,7 +94,8 @@ pub enum DatasetError {
     },
     /// The given lists hold too little.
     #[error(
-        "the fragment lists hold {found} fragments, too few for dataset.training_pairs + dataset.validation_pairs = {needed} of whole pixels; \
+        "the fragment lists hold {found} fragments, too few for dataset.training_pairs + dataset.validation_pairs = \
+            {needed} of whole pixels; \
          lower them, or add lists"
     )]
     TooFew {
@@ -138,7 +140,8 @@ impl DatasetConfig {
     }
 }
 
-/// Features of a list's fragments and the exact answers that the feature set is trained on; fragments that need no network have no row.
+/// Features of a list's fragments and the exact answers that the feature set is trained on; fragments that need no
+/// network have no row.
 ///
 /// # Errors
 /// [`DepthError`] where a fragment's depth does not fit the feature set.
@@ -161,7 +164,8 @@ pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthErr
     })
 }
 
-/// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how many there are so far.
+/// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how
+/// many there are so far.
 pub fn pixels_holding(synth: &Synth, purpose: Purpose, pairs: u64, progress: &dyn Fn(u64)) -> FragmentList {
     const CHUNK: usize = 4096;
     let mut offsets = vec![0];
@@ -242,7 +246,8 @@ pub fn build(
     ))
 }
 
-/// The random pixels that a dataset was made of, drawn again: training pixels, validation pixels; none where they are not random.
+/// The random pixels that a dataset was made of, drawn again: training pixels, validation pixels; none where they are
+/// not random.
 ///
 /// # Errors
 /// [`DatasetError::Synth`] where the manifest's distribution is invalid.
@@ -273,13 +278,15 @@ pub fn normalise(pieces: &mut [&mut [f32]]) {
     }
 }
 
-/// Builds a dataset of pixels drawn at random, without repetition, from given lists; `lists` are their names, which the manifest keeps, and they.
+/// Builds a dataset of pixels drawn at random, without repetition, from given lists; `lists` are their names, which the
+/// manifest keeps, and they.
 ///
-/// The pixels are split, not the rows: none serves both training and validation. Depths are taken relative to the whole list that a pixel is of.
+/// The pixels are split, not the rows: none serves both training and validation. Depths are taken relative to the whole
+/// list that a pixel is of.
 ///
 /// # Errors
-/// [`DatasetError::TooFew`] where the lists do not hold as many fragments as asked for; [`DatasetError::ListDepth`] names the list whose depths do
-/// not fit the feature set.
+/// [`DatasetError::TooFew`] where the lists do not hold as many fragments as asked for; [`DatasetError::ListDepth`]
+/// names the list whose depths do not fit the feature set.
 pub fn build_from_lists(
     name: &str,
     seed: u64,
@@ -512,7 +519,8 @@ pub(crate) mod tests {
         assert_eq!(small().0.manifest.target, "transmittance");
     }
 
-    /// Pixels of two lists of different depth: none in both parts, each with the depth range and the answers of its own list.
+    /// Pixels of two lists of different depth: none in both parts, each with the depth range and the answers of its own
+    /// list.
     #[test]
     fn given_lists_are_split_by_pixel() {
         let (_, [near, _]) = small();

@@ -11,7 +11,8 @@ use std::sync::{Mutex, PoisonError};
 /// Keeps the random numbers that choose among a pixel's rows apart from all others.
 const CHOICE_PURPOSE: u64 = 0x1005;
 
-/// Pixels of one task: enough to pay for handing it over, few enough that little is made in vain and that no one waits long for its end.
+/// Pixels of one task: enough to pay for handing it over, few enough that little is made in vain and that no one waits
+/// long for its end.
 const TASK: usize = 128;
 
 /// Tasks after which [`RowStream::take`] puts their rows where they belong and tells how many there are.
@@ -102,7 +103,8 @@ pub struct RowStream {
 }
 
 impl RowStream {
-    /// A stream from pixel 0 on. Moment depth is that of the configured camera: its planes are the extremes of the scene.
+    /// A stream from pixel 0 on. Moment depth is that of the configured camera: its planes are the extremes of the
+    /// scene.
     ///
     /// # Errors
     /// [`DatasetError`] names the field that is wrong.
@@ -136,7 +138,8 @@ impl RowStream {
         })
     }
 
-    /// The same where so many rows of so many pixels are known: how much work it takes is foreseen by them. No row depends on it.
+    /// The same where so many rows of so many pixels are known: how much work it takes is foreseen by them. No row
+    /// depends on it.
     pub fn expecting(self, rows: usize, pixels: usize) -> Self {
         if rows == 0 || pixels == 0 {
             self
@@ -169,7 +172,8 @@ impl RowStream {
         ((1.01 * pixels / TASK as f64).ceil() as usize).max(1)
     }
 
-    /// At least `pairs` rows of whole pixels, the pixel that reaches the number being the last. `progress` is told how many there are so far.
+    /// At least `pairs` rows of whole pixels, the pixel that reaches the number being the last. `progress` is told how
+    /// many there are so far.
     ///
     /// # Errors
     /// [`DatasetError::NothingToLearn`].
@@ -282,7 +286,8 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
     }
 }
 
-/// Rows in the making: tasks that any threads take in any order, and whose rows are put together in the order of their pixels.
+/// Rows in the making: tasks that any threads take in any order, and whose rows are put together in the order of their
+/// pixels.
 #[derive(Debug)]
 pub struct Making<'a> {
     stream: &'a RowStream,
@@ -319,7 +324,8 @@ impl<'a> Making<'a> {
         *self.parts[task].lock().unwrap_or_else(PoisonError::into_inner) = part;
     }
 
-    /// Does all of them, and gives what they have made in the order of the pixels; the pixel that reaches the number of rows is the last.
+    /// Does all of them, and gives what they have made in the order of the pixels; the pixel that reaches the number of
+    /// rows is the last.
     fn run_all(&self) -> Vec<Part> {
         (0..self.tasks()).into_par_iter().for_each(|task| self.run(task));
         self.made()
@@ -341,7 +347,8 @@ impl<'a> Making<'a> {
         out
     }
 
-    /// Whole pixels with at least as many rows as were asked for, once all tasks are done: where those fell short, others follow.
+    /// Whole pixels with at least as many rows as were asked for, once all tasks are done: where those fell short,
+    /// others follow.
     ///
     /// # Errors
     /// [`DatasetError::NothingToLearn`].
@@ -416,7 +423,8 @@ mod tests {
             .unwrap()
     }
 
-    /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in [−1, 1].
+    /// At most four rows of a pixel, whole pixels; targets in (0, 1]; features finite and, but for the logarithms, in
+    /// [−1, 1].
     #[test]
     fn streamed_rows_are_in_their_domain() {
         for rows in [
@@ -449,7 +457,8 @@ mod tests {
     }
 
     fn compare(single: &Rows, half: &Rows) {
-        // Closed forms answer fewer fragments from coarser moments, so rows differ in number; compare pixels that have as many.
+        // Closed forms answer fewer fragments from coarser moments, so rows differ in number; compare pixels that have
+        // as many.
         let of = |rows: &Rows| -> Vec<(u32, Vec<f32>, Vec<f32>)> {
             let mut at = 0;
             let pixels = rows.pixels.chunk_by(|a, b| a == b);
@@ -476,7 +485,8 @@ mod tests {
         assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);
     }
 
-    /// Rows that serve the image weigh alpha² times the fragments that they stand for; in a dataset the weights' mean is 1, and they survive its files.
+    /// Rows that serve the image weigh alpha² times the fragments that they stand for; in a dataset the weights' mean
+    /// is 1, and they survive its files.
     #[test]
     fn weights_serve_the_image() {
         let rows = streamed(|c| c.weights = Weighting::Image);
@@ -531,7 +541,8 @@ mod tests {
         );
     }
 
-    /// Whatever is asked for at a time, however wrong the foresight and however many the threads: the same rows of the same pixels.
+    /// Whatever is asked for at a time, however wrong the foresight and however many the threads: the same rows of the
+    /// same pixels.
     #[test]
     fn rows_depend_on_their_pixels_alone() {
         let config = DatasetConfig {

@@ -36,7 +36,8 @@ pub enum EvaluateError {
     },
     /// The list has fragments and no colours.
     #[error(
-        "there is no image: the {fragments} fragments of the list have no color; add a float32 array 'color' of shape [F, 3] to the file"
+        "there is no image: the {fragments} fragments of the list have no color; add a float32 array 'color' of shape \
+            [F, 3] to the file"
     )]
     NoColor {
         /// Number of fragments.
@@ -61,7 +62,8 @@ pub enum EvaluateError {
         pixels: usize,
     },
     /// Two images are to be compared and differ in size.
-    #[error("the image is {} x {}, its reference {} x {}; only images of one size can be compared", test.0, test.1, reference.0, reference.1)]
+    #[error("the image is {} x {}, its reference {} x {}; only images of one size can be compared", test.0, test.1,
+        reference.0, reference.1)]
     SizesDiffer {
         /// Columns and rows of the reference.
         reference: (u32, u32),

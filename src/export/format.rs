@@ -123,7 +123,8 @@ pub enum FormatError {
         name: String,
     },
     /// The target has no form with unrolled scalars.
-    #[error("{target} has no form with unrolled scalars; {} have", names(Format::all().filter(|f| f.form == Form::Plain)))]
+    #[error("{target} has no form with unrolled scalars; {} have",
+        names(Format::all().filter(|f| f.form == Form::Plain)))]
     NoPlain {
         /// Name of the target.
         target: &'static str,

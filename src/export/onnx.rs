@@ -1,6 +1,7 @@
 //! ONNX: the network as a graph of Gemm, Relu and Sigmoid.
 //!
-//! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that such a graph needs, declared by hand.
+//! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that
+//! such a graph needs, declared by hand.
 
 use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
@@ -261,8 +262,9 @@ pub fn model(mlp: &Mlp) -> ModelProto {
     }
     let set = mlp.feature_set();
     if let Answer::AbsorbanceShare { column, offset } = set.answer() {
-        // The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too large beside a great absorbance.
-        // exp(−relu(exp(min(features[:, column], most)) − offset) · share); the column is picked by a product with a column of the unit matrix.
+        // The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too
+        // large beside a great absorbance. exp(−relu(exp(min(features[:, column], most)) − offset) · share); the column
+        // is picked by a product with a column of the unit matrix.
         for (name, dims, values) in answer_tensors(set.width(), column, offset) {
             initializer.push(tensor(name.to_owned(), dims, &values));
         }

@@ -9,7 +9,8 @@ pub struct Prefix(String);
 /// Why there is no such prefix.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "'{0}' is no prefix: it takes lower-case letters, digits and single underscores between them, begins with a letter, and is not 'gl'"
+    "'{0}' is no prefix: it takes lower-case letters, digits and single underscores between them, begins with a \
+        letter, and is not 'gl'"
 )]
 pub struct NoPrefix(String);
 
@@ -111,7 +112,8 @@ mod tests {
         let under = glass.apply(text);
         assert_eq!(
             under,
-            "// nmt 0.1.0\nstruct Glass2Sums {}\nfn glass_2_pass1(my_nmt_v: f32) { GLASS_2_W1 + glass_2_x[glass_2_pass2(Nmt)] } // é glass_2_"
+            "// nmt 0.1.0\nstruct Glass2Sums {}\nfn glass_2_pass1(my_nmt_v: f32) { GLASS_2_W1 + \
+                glass_2_x[glass_2_pass2(Nmt)] } // é glass_2_"
         );
         assert_eq!(glass.undo(&under), text);
         let source = format!("// {}\n{under}", glass.line());

@@ -273,7 +273,8 @@ pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Stri
         Language::Wgsl => text,
         // A second inclusion is none. GLSL ES has no default precision in fragment shaders.
         Language::Glsl => format!(
-            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n{text}\n#endif\n"
+            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp \
+                int;\n#endif\n\n{text}\n#endif\n"
         ),
         Language::Hlsl => format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"),
     };
@@ -337,7 +338,11 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
     ];
     lines.extend(prefix.map(Prefix::line));
     if format.language() == Some(Language::Hlsl) {
-        lines.push("HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].".to_owned());
+        lines.push(
+            "HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an \
+            out float[n]."
+                .to_owned(),
+        );
     }
     if let Some(limit) = limit {
         lines.extend(half_lines(format.language(), limit, half_bounds(set)));
@@ -383,10 +388,13 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
 
 /// What is to be known of half precision.
 fn half_lines(language: Option<Language>, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
-    let mut lines = vec![
-        "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are f32.".to_owned(),
+    let mut lines =
+        vec![
+        "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are \
+            f32.".to_owned(),
         format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
-        format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most {mean} in the mean."),
+        format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most \
+            {mean} in the mean."),
     ];
     if language == Some(Language::Hlsl) {
         lines.push(
@@ -413,7 +421,8 @@ fn pruned_lines(pruned: &Pruned, form: Form) -> [String; 2] {
             "What was taken out cannot fire, or nothing listens to it: answers are exact for all features{bits}."
         ),
         (_, rows) => format!(
-            "What was taken out fired on none of {rows} random rows of the training distribution: on fewer than {:.1e} of them, at 95 % confidence. Where it \
+            "What was taken out fired on none of {rows} random rows of the training distribution: on fewer than {:.1e} \
+                of them, at 95 % confidence. Where it \
              would not fire, answers are exact{bits}; elsewhere they are off by what it would add.",
             3.0 / rows as f64
         ),
@@ -601,7 +610,8 @@ impl Network<'_> {
             );
             let _ = write!(
                 text,
-                "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
+                "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return \
+                    exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
                 language.function(ENTRY, self.mlp.feature_set().width()),
                 language.bind("float", "absorbance", &absorbance),
             );

@@ -51,7 +51,8 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
     let guard = shader::include_guard(mlp.name());
     let guard = prefix.map_or(guard.clone(), |prefix| prefix.apply(&guard));
     let more = [
-        "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member 'inner'.",
+        "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member \
+            'inner'.",
     ];
     let head = shader::comment(&header(mlp, format, prefix, &more)?);
     Ok(format!("{head}#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"))
@@ -201,8 +202,10 @@ pub fn spirv(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
         format!("{FRAGMENTS}: row by row {}.", arguments.join(", ")),
     );
     let more = [
-        "SPIR-V, translated from the WGSL export by naga. Compute shaders of 64 invocations: row = x + y * 64 * (workgroups in x).",
-        "Set 0: binding 0 is a storage buffer of f32 to read, binding 1 one to write, T of one row a number; their lengths say how many rows.",
+        "SPIR-V, translated from the WGSL export by naga. Compute shaders of 64 invocations: row = x + y * 64 * \
+            (workgroups in x).",
+        "Set 0: binding 0 is a storage buffer of f32 to read, binding 1 one to write, T of one row a number; their \
+            lengths say how many rows.",
         &rows,
         &fragments,
     ];

@@ -16,7 +16,8 @@ pub const DESCRIPTION: [&str; 4] = [
     "v is distance along the view direction; v_min and v_max are its extremes over the whole scene.",
     "depth = (v - v_min) / (v_max - v_min), clamped to [0, 1], 0 where v_min = v_max;",
     "alpha_sum = sum of alpha and n = number of fragments of the pixel, over all of its fragments.",
-    "The answer is what front-to-back blending has left when it reaches the fragment; use it as the weight of weighted blended transparency.",
+    "The answer is what front-to-back blending has left when it reaches the fragment; use it as the weight of weighted \
+        blended transparency.",
 ];
 
 /// Bits of a pixel through both passes: sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and

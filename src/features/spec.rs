@@ -35,8 +35,8 @@ pub struct FeatureSpec {
     pub description: &'static [&'static str],
     /// What pass 1 keeps of a pixel.
     pub sums: Sums,
-    /// Single fragments that pass 1 keeps besides, and that pass 2 takes out of the sums; none of most sets. The network then
-    /// answers with the transmittance of what is left.
+    /// Single fragments that pass 1 keeps besides, and that pass 2 takes out of the sums; none of most sets. The
+    /// network then answers with the transmittance of what is left.
     pub core: Option<CoreSet>,
     /// Depth that moments are taken of, and with it what must be known of camera and scene.
     pub depth: MomentDepthKind,

@@ -205,11 +205,13 @@ pub struct Rendered {
 }
 
 /// What [`crate::gpu::GpuError::Lacks`] says where f32 targets cannot be blended into.
-const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 (pipeline::TargetPrecision::Half, for networks), let compute passes \
+const BLENDING: &str = "float32-blendable, blending into f32 render targets. Store sums as f16 \
+    (pipeline::TargetPrecision::Half, for networks), let compute passes \
     add them up (gpu::tiles, which needs no blending), or choose another adapter with WGPU_ADAPTER_NAME";
 
 /// What it says where the fragment stage has no atomics on buffers.
-const ATOMICS: &str = "atomic operations on storage buffers in the fragment stage, by which a core is kept. Let compute \
+const ATOMICS: &str = "atomic operations on storage buffers in the fragment stage, by which a core is kept. Let \
+    compute \
     passes keep it (gpu::tiles), or choose another adapter with WGPU_ADAPTER_NAME";
 
 impl Pipeline {

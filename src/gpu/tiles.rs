@@ -374,7 +374,8 @@ mod tests {
             source: method.source.replace("fn oit_short_weight(", "fn oit_right_weight(") + WRONG,
             ..method.clone()
         };
-        const WRONG: &str = "\nfn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 { return 0.5 * oit_right_weight(f, p) + 0.5; }\n";
+        const WRONG: &str = "\nfn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 { return 0.5 * \
+            oit_right_weight(f, p) + 0.5; }\n";
         let passes = passes(gpu, &list, &wrong);
         let (plain, apart) = (shaded(gpu, &passes, Skip::None), shaded(gpu, &passes, Skip::Exact));
         let different = plain.iter().zip(&apart).filter(|(a, b)| a != b).count();
@@ -398,8 +399,10 @@ mod tests {
                     .source
                     .replace("fn oit_hidden_weight(", "fn oit_right_weight(")
                     .replace("fn oit_first_hidden_depth(", "fn oit_right_depth(")
-                    + "\nfn oit_hidden_weight(f: OitFragment, p: OitPixel) -> f32 { return 0.0 * oit_right_weight(f, p); }\n"
-                    + "fn oit_first_hidden_depth(p: OitPixel) -> f32 { return min(0.0 * oit_right_depth(p), 0.0) + p.z_nearest; }\n";
+                    + "\nfn oit_hidden_weight(f: OitFragment, p: OitPixel) -> f32 { return 0.0 * oit_right_weight(f, \
+                        p); }\n"
+                    + "fn oit_first_hidden_depth(p: OitPixel) -> f32 { return min(0.0 * oit_right_depth(p), 0.0) + \
+                        p.z_nearest; }\n";
                 let of = |method: &MethodShader, skip| {
                     let passes = passes(gpu, &list, method);
                     passes.run(gpu, skip).unwrap();

@@ -60,8 +60,8 @@ fn single(name: &str) -> String {
     }
 }
 
-/// Twins whose pass 1 is no sum: 99.9 % of T within 1e-4 of the CPU's f64, all within 1e-2, where a fragment lies beside
-/// the border of a cell. Control: the answers of the twin before it.
+/// Twins whose pass 1 is no sum: 99.9 % of T within 1e-4 of the CPU's f64, all within 1e-2, where a fragment lies
+/// beside the border of a cell. Control: the answers of the twin before it.
 #[test]
 fn inserted_twins_answer_as_on_the_cpu() {
     let Some(gpu) = gpu() else { return };

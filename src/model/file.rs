@@ -36,7 +36,8 @@ pub enum ModelError {
         reason: String,
     },
     /// Another version wrote it.
-    #[error("{}: version {version} of the model file; this program reads version {MODEL_VERSION}: use a newer nmt, or export the model again", path.display())]
+    #[error("{}: version {version} of the model file; this program reads version {MODEL_VERSION}: use a newer nmt, or \
+        export the model again", path.display())]
     Version {
         /// The file.
         path: PathBuf,
@@ -271,7 +272,10 @@ mod tests {
         /// Any finite bits, denormals and negative zero included.
         #[test]
         fn bits_survive(bits in prop::collection::vec(any::<u32>(), 7)) {
-            let weights: Vec<f32> = bits.into_iter().map(f32::from_bits).map(|w| if w.is_finite() { w } else { 1e-45 }).collect();
+            let weights: Vec<f32> = {
+                let finite = |w: f32| if w.is_finite() { w } else { 1e-45 };
+                bits.into_iter().map(f32::from_bits).map(finite).collect()
+            };
             let layer = Dense::new(7, 1, weights.clone(), vec![-0.0]).unwrap();
             let mlp = Mlp::new("bits", FeatureSet::Paper, vec![layer], Provenance::default()).unwrap();
             let back = from_json(to_json(&mlp).as_bytes(), Path::new("m.json")).unwrap();

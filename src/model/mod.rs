@@ -91,7 +91,8 @@ impl Provenance {
     pub fn measured_text(&self) -> Option<String> {
         if let (Some(mse), Some(worst)) = (self.transmittance_mse, self.transmittance_worst_error) {
             return Some(format!(
-                "Measured on fresh pixels of the training distribution: mean squared error of T {mse:.3e}, worst {worst:.3}."
+                "Measured on fresh pixels of the training distribution: mean squared error of T {mse:.3e}, worst \
+                    {worst:.3}."
             ));
         }
         let derived = self.derived.as_ref()?;
@@ -102,7 +103,8 @@ impl Provenance {
             .unwrap_or("another network");
         let (error, held_out) = (number("error")?, number("error_held_out")?);
         Some(format!(
-            "Measured on the scene that it was retrained on: error {error:.3e}, and {held_out:.3e} on the tiles held out; '{from}' had {:.3e} and {:.3e}.",
+            "Measured on the scene that it was retrained on: error {error:.3e}, and {held_out:.3e} on the tiles held \
+                out; '{from}' had {:.3e} and {:.3e}.",
             number("error_before").unwrap_or(f64::NAN),
             number("error_before_held_out").unwrap_or(f64::NAN)
         ))
@@ -131,7 +133,8 @@ mod tests {
         );
         assert!(p.measured_text().is_none());
         p.derived = Some(
-            serde_json::json!({ "from": "a", "error": 1e-3, "error_held_out": 2e-3, "error_before": 3e-3, "error_before_held_out": 4e-3 }),
+            serde_json::json!({ "from": "a", "error": 1e-3, "error_held_out": 2e-3, "error_before": 3e-3,
+                "error_before_held_out": 4e-3 }),
         );
         assert!(p.measured_text().unwrap().contains("error 1.000e-3, and 2.000e-3"));
     }

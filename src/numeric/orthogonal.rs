@@ -282,7 +282,8 @@ mod tests {
         /// Gauss' atoms are the atoms themselves, and rebuilding the polynomials from them changes nothing. Tolerance
         /// 1e-7: masses and gaps of 0.05 leave an h_3 of at least 1e-9.
         #[test]
-        fn gauss_round_trip(gaps in prop::collection::vec(0.2f64..0.5, 4), masses in prop::collection::vec(0.05f64..1.0, 4), last in 0.01f64..1.0) {
+        fn gauss_round_trip(gaps in prop::collection::vec(0.2f64..0.5, 4),
+            masses in prop::collection::vec(0.05f64..1.0, 4), last in 0.01f64..1.0) {
             let mut at = -1.0;
             let atoms: [f64; 4] = std::array::from_fn(|i| { at += gaps[i]; at });
             let masses: [f64; 4] = std::array::from_fn(|i| masses[i]);
@@ -306,7 +307,8 @@ mod tests {
                 prop_assert!(b.lower <= below + slack && below <= b.upper + slack, "{below} in {b:?}");
             }
             // More moments, tighter bounds.
-            prop_assert!(six.lower >= four.lower - 1e-6 * total && six.upper <= four.upper + 1e-6 * total, "{six:?} {four:?}");
+            prop_assert!(six.lower >= four.lower - 1e-6 * total && six.upper <= four.upper + 1e-6 * total, "{six:?} \
+                {four:?}");
         }
     }
 

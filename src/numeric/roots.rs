@@ -137,7 +137,8 @@ mod tests {
         /// by ε · Σ|c x^k| / |p'|, at most 2e-16 · 81 / 0.05³ = 1.3e-10 for four of them at 2; typical ones are far
         /// better.
         #[test]
-        fn roots_are_recovered(gaps in prop::collection::vec(0.05f64..1.0, 1..=4), scale in prop_oneof![-9.0f64..-0.1, 0.1f64..9.0]) {
+        fn roots_are_recovered(gaps in prop::collection::vec(0.05f64..1.0, 1..=4), scale in prop_oneof![-9.0f64..-0.1,
+            0.1f64..9.0]) {
             let total: f64 = gaps.iter().sum();
             let mut at = -total / 2.0;
             let roots: Vec<f64> = gaps.iter().map(|g| { at += g; at }).collect();
@@ -156,7 +157,8 @@ mod tests {
         /// One root many orders of magnitude away costs neither it nor the others their digits. Tolerance 1e-9 relative
         /// to the root's size and to 1.
         #[test]
-        fn far_roots(near in prop::collection::vec(0.1f64..0.9, 1..=3), exponent in 1.0f64..8.0, negative in any::<bool>()) {
+        fn far_roots(near in prop::collection::vec(0.1f64..0.9, 1..=3), exponent in 1.0f64..8.0,
+            negative in any::<bool>()) {
             let mut roots: Vec<f64> = near.iter().enumerate().map(|(i, r)| i as f64 + r * 0.8).collect();
             roots.push(10f64.powf(exponent) * if negative { -1.0 } else { 5.0 });
             let found = real_roots(&expand(&roots, 1.0));

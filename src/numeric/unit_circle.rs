@@ -263,7 +263,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn atoms_on_the_circle_have_the_moments(atoms in prop::collection::vec((0.0f64..6.0, 0.05f64..1.0), 1..20), t0 in 0.0f64..6.0) {
+        fn atoms_on_the_circle_have_the_moments(atoms in prop::collection::vec((0.0f64..6.0, 0.05f64..1.0), 1..20),
+            t0 in 0.0f64..6.0) {
             check::<2>(&atoms, t0)?;
             check::<3>(&atoms, t0)?;
             check::<4>(&atoms, t0)?;

@@ -275,7 +275,8 @@ mod tests {
     proptest! {
         /// T is never overestimated, the first fragment sees everything, and the total is exact. Tolerance 1e-12.
         #[test]
-        fn never_above_the_truth(pairs in prop::collection::vec((0.5f32..8.0, 0.0f32..=1.0), 1..40), nodes in 1usize..12) {
+        fn never_above_the_truth(pairs in prop::collection::vec((0.5f32..8.0, 0.0f32..=1.0), 1..40),
+            nodes in 1usize..12) {
             let (view_z, alpha): (Vec<f32>, Vec<f32>) = pairs.into_iter().unzip();
             let list = FragmentList::new(vec![0, view_z.len() as u64], view_z.clone(), alpha, None).unwrap();
             let (ours, exact) = (weights(&of_2011(nodes), &list), abuffer::list_transmittance(&list));

@@ -20,7 +20,8 @@ pub const CAPABILITIES: Capabilities = Capabilities {
 
 /// The network was made for other features.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("network '{network}' takes the features '{}', but {NAME} needs '{}'; use it as neural:MODEL, or train one by configs/{NAME}.toml", found.name(), FeatureSet::DeepWeightedBlended.name())]
+#[error("network '{network}' takes the features '{}', but {NAME} needs '{}'; use it as neural:MODEL, or train one by \
+    configs/{NAME}.toml", found.name(), FeatureSet::DeepWeightedBlended.name())]
 pub struct WrongFeatures {
     network: String,
     found: FeatureSet,

@@ -88,8 +88,8 @@ pub trait Method: Send + Sync {
 
     /// Its twin on a GPU, where it has one.
     ///
-    /// Moments are f32 there, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the CPU's, which are f64 after pass 1,
-    /// all arithmetic is f32.
+    /// Moments are f32 there, so that a storage of `:f32` changes nothing; the other storages have no twin. Unlike the
+    /// CPU's, which are f64 after pass 1, all arithmetic is f32.
     ///
     /// # Accuracy
     /// Against the CPU's method on the same f32 moments: `gpu::twins::twins_answer_as_on_the_cpu`.

@@ -65,9 +65,9 @@ pub(super) struct MomentShader {
 }
 
 impl MomentShader {
-    /// The whole method; `own` takes the fragment's own absorbance out. (There the CPU's tries all moments before it gives up, which 16-bit storage
-    /// needs; in f32 it would double the work of devices that run both sides of a branch, for what `gpu::twins::hard_pixels` meets in one answer of
-    /// thousands.)
+    /// The whole method; `own` takes the fragment's own absorbance out. (There the CPU's tries all moments before it
+    /// gives up, which 16-bit storage needs; in f32 it would double the work of devices that run both sides of a
+    /// branch, for what `gpu::twins::hard_pixels` meets in one answer of thousands.)
     fn method(self, name: String, own: bool) -> MethodShader {
         let weight = if own {
             let others: Vec<String> = (0..self.sums).map(|i| format!("p.sums[{i}] - own[{i}]")).collect();
@@ -98,7 +98,8 @@ impl MomentShader {
     }
 }
 
-/// Overestimation where the fragment's own absorbance is gone: the middle of the bounds, for nothing is known to lie at the depth itself.
+/// Overestimation where the fragment's own absorbance is gone: the middle of the bounds, for nothing is known to lie at
+/// the depth itself.
 ///
 /// On the paper's distribution (moments of 2w − 1) four moments then have a T-MSE of 4.4e-3, against 9.1e-3 with 0.25.
 pub(super) const OTHERS_OVERESTIMATION: f64 = 0.5;

@@ -146,8 +146,8 @@ impl Method for Neural {
         )
     }
 
-    /// b0 and the moments, the number of fragments and both ends; of core sets also the single fragments, kept by atomics. Moments in the pixel's
-    /// own frame need a prepass.
+    /// b0 and the moments, the number of fragments and both ends; of core sets also the single fragments, kept by
+    /// atomics. Moments in the pixel's own frame need a prepass.
     fn capabilities(&self) -> Capabilities {
         let set = self.mlp.feature_set();
         if set == FeatureSet::DeepWeightedBlended {

@@ -241,7 +241,8 @@ pub fn shader_of(name: &str) -> Option<MethodShader> {
     parse(name).ok()?.shader()
 }
 
-/// Names of the methods that have a GPU twin. Where names differ in the CPU's storage alone, the shortest stands for all.
+/// Names of the methods that have a GPU twin. Where names differ in the CPU's storage alone, the shortest stands for
+/// all.
 pub fn names_with_shader() -> Vec<String> {
     let names = all_names().into_iter().filter(|name| !name.contains(":f32"));
     names

@@ -62,8 +62,8 @@ pub struct MethodShader {
     pub pass1: Pass1,
     /// How the colour is made.
     pub composite: Composite,
-    /// Single fragments that pass 1 keeps beside the sums; then the sums are of what their steps stand for, and the number of
-    /// fragments that absorb comes last.
+    /// Single fragments that pass 1 keeps beside the sums; then the sums are of what their steps stand for, and the
+    /// number of fragments that absorb comes last.
     pub core: Option<CoreSet>,
     /// Functions of the source beside the two that every method has.
     pub offers: Offers,

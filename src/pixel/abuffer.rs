@@ -241,9 +241,11 @@ mod tests {
         /// Tolerance 1e-12 relative.
         #[test]
         fn agrees_with_the_unsorted_product(pairs in prop::collection::vec((0.5f32..8.0, 0.0f32..0.99), 0..40)) {
-            let (view_z, alpha): (Vec<f32>, Vec<f32>) = pairs.into_iter().map(|(v, a)| ((v * 4.0).round() / 4.0, a)).unzip();
+            let (view_z, alpha): (Vec<f32>, Vec<f32>) = pairs.into_iter().map(|(v, a)| ((v * 4.0).round() / 4.0,
+                a)).unzip();
             for (i, t) in truth(&view_z, &alpha).into_iter().enumerate() {
-                let product: f64 = (0..alpha.len()).filter(|&j| view_z[j] < view_z[i]).map(|j| 1.0 - f64::from(alpha[j])).product();
+                let nearer = (0..alpha.len()).filter(|&j| view_z[j] < view_z[i]);
+                let product: f64 = nearer.map(|j| 1.0 - f64::from(alpha[j])).product();
                 prop_assert!((t - product).abs() <= 1e-12 * product, "{t} against {product}");
             }
         }

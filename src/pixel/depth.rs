@@ -24,7 +24,8 @@ pub enum DepthError {
     NoPlanes,
     /// Relative depth was asked for and no range is known.
     #[error(
-        "relative depth needs a range of view depths, and neither the fragment list nor the caller gives one; pass --depth-range"
+        "relative depth needs a range of view depths, and neither the fragment list nor the caller gives one; pass \
+            --depth-range"
     )]
     NoRange,
     /// The planes are not 0 < near < far, or not finite.

@@ -163,7 +163,8 @@ pub enum FragmentError {
     },
     /// The data window is not of the image's size, or the display window is empty.
     #[error(
-        "data window {data:?}, display window {display:?}; the first must have as many columns and rows as the image, the second at least one"
+        "data window {data:?}, display window {display:?}; the first must have as many columns and rows as the image, \
+            the second at least one"
     )]
     Windows {
         /// x_min, y_min, x_max, y_max.

@@ -39,7 +39,8 @@ pub enum ProfileError {
     Simplify(#[from] SimplifyError),
     /// The network answers too little of the scene.
     #[error(
-        "the network is evaluated for {rows} fragments of this scene; at least {least} are needed to {what}: take a larger image, or a scene with deeper pixels"
+        "the network is evaluated for {rows} fragments of this scene; at least {least} are needed to {what}: take a \
+            larger image, or a scene with deeper pixels"
     )]
     TooFew {
         /// Rows of features.

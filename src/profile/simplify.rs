@@ -1,12 +1,14 @@
-//! Exact simplification: what does nothing on a scene's rows is taken out of a network, and that this is so is proved on every one of them.
+//! Exact simplification: what does nothing on a scene's rows is taken out of a network, and that this is so is proved
+//! on every one of them.
 //!
 //! - A unit that never fires adds 0: without it all answers keep their bits, on every row on which it stays silent.
 //! - A unit of which all outgoing weights are 0 adds 0 whatever it says.
 //! - A feature that has one value goes into the biases, and its weights become 0, which unrolled exports leave out.
-//! - Units that always fire are linear. k of them between I inputs and O outputs act through a matrix of rank min(I, O) at most: where k is more, so many units do the
-//!   same, shifted such that they too always fire.
+//! - Units that always fire are linear. k of them between I inputs and O outputs act through a matrix of rank min(I, O)
+//!   at most: where k is more, so many units do the same, shifted such that they too always fire.
 //!
-//! The last two change rounding. They are kept only if the f32 answers stay within 1.5 times the first network's own f32 error, against its f64 answers on the same rows.
+//! The last two change rounding. They are kept only if the f32 answers stay within 1.5 times the first network's own
+//! f32 error, against its f64 answers on the same rows.
 
 use super::ProfileError;
 use crate::model::simplify::{Activity, Units, activity, walk, with_constant_features, without_units};
@@ -78,7 +80,8 @@ pub struct Report {
     pub merged: Vec<Merged>,
     /// Features that went into biases.
     pub constants: Vec<Constant>,
-    /// Whether the network without silent units gave the same bits on every row, in f32 and in f64; anything else is a fault of this program.
+    /// Whether the network without silent units gave the same bits on every row, in f32 and in f64; anything else is a
+    /// fault of this program.
     pub identical_bits: bool,
     /// f32 error of the first network.
     pub rounding_before: Rounding,
@@ -262,7 +265,8 @@ struct PrunedNetwork {
     kept: Units,
 }
 
-/// Takes out units that fire on no row, and those that nothing listens to. A layer keeps its first unit where none is left.
+/// Takes out units that fire on no row, and those that nothing listens to. A layer keeps its first unit where none is
+/// left.
 fn prune(mlp: &Mlp, fired: &[Vec<u64>], bounds: &[Vec<[f64; 2]>]) -> Result<PrunedNetwork, ProfileError> {
     let mut removed = Vec::new();
     let mut kept = Units::new();
@@ -345,7 +349,8 @@ struct Candidate {
     rounding: Rounding,
 }
 
-/// The first of folding and merging, merging, and folding that leaves rounding as it must be; the pruned network where none does.
+/// The first of folding and merging, merging, and folding that leaves rounding as it must be; the pruned network where
+/// none does.
 fn fold_and_merge(
     pruned: &PrunedNetwork,
     constants: &[Constant],
@@ -482,7 +487,8 @@ fn inputs_of(mlp: &Mlp, rows: &[f32], l: usize) -> Vec<Vec<f64>> {
 }
 
 impl Report {
-    /// Whether a simplified network answers a row as the first one does: to the bit where nothing was merged or folded, to rounding else.
+    /// Whether a simplified network answers a row as the first one does: to the bit where nothing was merged or folded,
+    /// to rounding else.
     ///
     /// # Panics
     /// If the row is not as wide as the feature set.
@@ -541,8 +547,9 @@ mod tests {
         Mlp::new("lazy", FeatureSet::Paper, layers, Provenance::default()).unwrap()
     }
 
-    /// Dead and unheard units go without a changed bit, constants and linear units with an error within 1.5 times the network's own, on every row; multiply-adds fall. Controls: a
-    /// unit that fires may not go, and a row outside the region is told.
+    /// Dead and unheard units go without a changed bit, constants and linear units with an error within 1.5 times the
+    /// network's own, on every row; multiply-adds fall. Controls: a unit that fires may not go, and a row outside the
+    /// region is told.
     #[test]
     fn what_does_nothing_goes() {
         let (mlp, rows) = (lazy(), rows(1, 5000, Some(0.25)));

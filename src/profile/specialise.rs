@@ -1,7 +1,9 @@
-//! Lossy specialisation: a network is retrained on one scene's own rows and made smaller for as long as an error is kept.
+//! Lossy specialisation: a network is retrained on one scene's own rows and made smaller for as long as an error is
+//! kept.
 //!
-//! Some of the scene's tiles are held out: no row of theirs is trained on, and a smaller network is accepted only if it keeps the error on them as well as on the whole. They are
-//! of the same scene all the same, so that what comes out is for that scene and those like it.
+//! Some of the scene's tiles are held out: no row of theirs is trained on, and a smaller network is accepted only if it
+//! keeps the error on them as well as on the whole. They are of the same scene all the same, so that what comes out is
+//! for that scene and those like it.
 
 use super::{Errors, ProfileError, Scene};
 use crate::dataset::build::normalise;
@@ -30,7 +32,8 @@ pub const MIN_ROWS: usize = 1000;
 /// How a network is fitted to a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Plan {
-    /// The error that must be kept: of the image, or of transmittance where there is none; the network's own where none.
+    /// The error that must be kept: of the image, or of transmittance where there is none; the network's own where
+    /// none.
     pub target_error: Option<f64>,
     /// Share of the tiles that are held out.
     pub held_out: f64,
@@ -189,7 +192,8 @@ impl<'a> Task<'a> {
         (rows, held_out)
     }
 
-    /// Square of the image's derivative by the answer to a fragment: a_i |C_i − m| (1 − e^−b_0)/Σ a T, m the pixel's own colour.
+    /// Square of the image's derivative by the answer to a fragment: a_i |C_i − m| (1 − e^−b_0)/Σ a T, m the pixel's
+    /// own colour.
     fn weight(&self, p: usize, i: usize) -> f32 {
         let list = self.scene.list;
         let a = f64::from(list.alpha()[i]);
@@ -339,7 +343,8 @@ fn fit(mlp: &Mlp, rows: &Rows, plan: &Plan, round: u64, stop: &dyn Fn() -> bool)
     with_parameters(mlp, &parameters)
 }
 
-/// A network with fewer units in its hidden layers: those stay that do most, the mean of what the others did goes into biases.
+/// A network with fewer units in its hidden layers: those stay that do most, the mean of what the others did goes into
+/// biases.
 ///
 /// What a unit does is measured by the spread of its value over rows, times the length of its outgoing weights.
 fn shrink(mlp: &Mlp, rows: &[f32], hidden: &[usize]) -> Result<Mlp, ProfileError> {
@@ -451,8 +456,8 @@ fn choose(attempts: &[&Attempt], size: SizeChoice) -> usize {
     found.unwrap_or(0)
 }
 
-/// Retrains the network at its own size, then smaller and smaller ones for as long as the error is kept, and then between what is enough
-/// and what is too few.
+/// Retrains the network at its own size, then smaller and smaller ones for as long as the error is kept, and then
+/// between what is enough and what is too few.
 fn search(
     task: &Task<'_>,
     mlp: &Mlp,
@@ -499,8 +504,8 @@ fn search(
     Ok(tried)
 }
 
-/// Hidden sizes to try next: three quarters of what is enough for as long as the error is kept, then the middle of what is too few and
-/// what is enough; none where both are near.
+/// Hidden sizes to try next: three quarters of what is enough for as long as the error is kept, then the middle of what
+/// is too few and what is enough; none where both are near.
 fn next_size(enough: &Mlp, too_few: usize) -> Option<Vec<usize>> {
     let (most, sizes) = (enough.multiply_adds(), enough.sizes());
     if too_few > 0 && (most - too_few) * 12 < most {
@@ -562,7 +567,8 @@ pub fn specialise(
         scene.errors(&Neural::new(mlp_after.clone()).transmittance(scene.list, scene.context, &|_| {})?)?;
     let chosen_attempt = &attempts[chosen];
     mlp_after.provenance.derived = Some(json!({
-        "how": "specialised: retrained on the fragments of one scene and made smaller while an error was kept; for that scene and those like it",
+        "how": "specialised: retrained on the fragments of one scene and made smaller while an error was kept; for \
+            that scene and those like it",
         "from": mlp.name(),
         "from_network": mlp.shape(),
         "plan": plan,
@@ -662,8 +668,8 @@ mod tests {
         assert_eq!(choose(&none.iter().collect::<Vec<_>>(), SizeChoice::Best), 0);
     }
 
-    /// Retrained on the scene the network errs less there, on what was held out too, and a smaller one errs no more than the first did; the same bytes on one thread. Control: an
-    /// error that nothing can keep is not kept.
+    /// Retrained on the scene the network errs less there, on what was held out too, and a smaller one errs no more
+    /// than the first did; the same bytes on one thread. Control: an error that nothing can keep is not kept.
     #[test]
     fn a_scene_needs_less_than_all_scenes() {
         let list = scene("hair", 72);
@@ -765,7 +771,8 @@ mod tests {
         assert_eq!(multiply_adds(7, &[32, 16]), 752);
     }
 
-    /// Units that do nothing go first, and the mean of what went stays in the biases: the answers of a network with a unit that always says the same do not change.
+    /// Units that do nothing go first, and the mean of what went stays in the biases: the answers of a network with a
+    /// unit that always says the same do not change.
     #[test]
     fn shrinking_keeps_what_matters() {
         let mut layers = small().layers().to_vec();

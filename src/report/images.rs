@@ -227,7 +227,8 @@ const VIEWER: &str = r#"<div class="viewer" id="viewer" hidden>
 <label class="check"><input type="checkbox" id="v-flip"> FLIP map on the left</label>
 </div>
 <div class="pan" tabindex="0" role="region" aria-label="The two images; scrolls when enlarged">
-<div class="stage" id="v-stage"><img id="v-b" alt=""><img id="v-a" alt=""><span class="divider" aria-hidden="true"></span></div></div>
+<div class="stage" id="v-stage"><img id="v-b" alt=""><img id="v-a" alt="">
+<span class="divider" aria-hidden="true"></span></div></div>
 <label class="range">Divider <input type="range" id="v-cut" min="0" max="100" step="0.5" value="50"
 aria-label="Divider: share of the width that shows the left image"></label>
 <p class="sides" id="v-text" aria-live="polite"></p>

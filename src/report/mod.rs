@@ -1,8 +1,9 @@
 //! One HTML page of what the other commands measured, out of the files that they wrote.
 //!
-//! The page stands alone: styles, script and pictures are in it, and it asks no network for anything. Files are read as what they are, texts
-//! of strangers: all are escaped, any may be broken or of other types than expected, and the page says which were. A content security policy lets the
-//! page's own script run and no other. The same files make the same bytes.
+//! The page stands alone: styles, script and pictures are in it, and it asks no network for anything. Files are read as
+//! what they are, texts of strangers: all are escaped, any may be broken or of other types than expected, and the page
+//! says which were. A content security policy lets the page's own script run and no other. The same files make the same
+//! bytes.
 
 mod checks;
 mod errors;
@@ -37,7 +38,8 @@ pub enum ReportError {
     File(#[from] FileError),
     /// There is nothing to report on.
     #[error(
-        "{}: holds nothing that nmt measured{problems}; name a folder that 'nmt run', 'nmt evaluate --out' or another command has written to",
+        "{}: holds nothing that nmt measured{problems}; name a folder that 'nmt run', 'nmt evaluate --out' or another \
+            command has written to",
         path.display()
     )]
     Nothing {
@@ -299,7 +301,8 @@ fn page(
         provenance::section(found)
     );
     if !missing.is_empty() {
-        out += "<section id=\"missing\" aria-labelledby=\"missing-title\"><h2 id=\"missing-title\">Not in this folder</h2>\n<ul class=\"missing\">";
+        out += "<section id=\"missing\" aria-labelledby=\"missing-title\"><h2 id=\"missing-title\">Not in this \
+            folder</h2>\n<ul class=\"missing\">";
         for m in missing {
             out += &format!("<li>{}: <code>{}</code></li>\n", escape(m.what), escape(m.command));
         }
@@ -334,9 +337,12 @@ mod tests {
     /// Every kind of file with hostile text in every place.
     fn hostile(folder: &Path) {
         let evil = "</title></script><script>alert(1)</script>\"'><img src=x onerror=alert(1)>";
-        let row = json!({ "scene": evil, "method": evil, "image_mse": 1e300, "image_psnr_db": evil, "flip_mean": -1, "transmittance_mse": 5e-324, "picture": evil,
-            "nonfinite": u64::MAX, "bits_per_pixel": -1.5, "seconds_accumulate": [], "seconds_weights": 1e-300, "fragments": 1e308, "depth_complexity": evil,
-            "by_fragments_per_pixel": [{ "least_fragments_per_pixel": 1e300, "most_fragments_per_pixel": -1, "fragments": -5, "transmittance_mse": 1e-9 }],
+        let row = json!({ "scene": evil, "method": evil, "image_mse": 1e300, "image_psnr_db": evil, "flip_mean": -1,
+            "transmittance_mse": 5e-324, "picture": evil,
+            "nonfinite": u64::MAX, "bits_per_pixel": -1.5, "seconds_accumulate": [], "seconds_weights": 1e-300,
+                "fragments": 1e308, "depth_complexity": evil,
+            "by_fragments_per_pixel": [{ "least_fragments_per_pixel": 1e300, "most_fragments_per_pixel": -1,
+                "fragments": -5, "transmittance_mse": 1e-9 }],
             "by_alpha": [{ "least_alpha": 7, "most_alpha": 7, "transmittance_mse": 1e200 }, evil] });
         let refused = json!({ "scene": evil, "method": evil, "error": evil });
         let with = |command: &str, rows: serde_json::Value| {
@@ -347,7 +353,8 @@ mod tests {
             "e/results.json",
             with("evaluate", json!([row, refused, null, 5, [], evil])),
         );
-        let methods = json!({ "benchmark": "methods", "method": evil, "adapter": evil, "scene": evil, "seconds_weights": 1e-9, "image_mse": 1e-9, "raw_seconds": [evil, 1e300] });
+        let methods = json!({ "benchmark": "methods", "method": evil, "adapter": evil, "scene": evil,
+            "seconds_weights": 1e-9, "image_mse": 1e-9, "raw_seconds": [evil, 1e300] });
         let train =
             json!({ "benchmark": evil, "network": evil, "samples_per_second": 1e300, "raw_seconds": [1, -1, 1e300] });
         write(
@@ -366,7 +373,8 @@ mod tests {
             "p.json",
             with(
                 "profile",
-                json!([{ "scene": evil, evil: evil, "list": [{ evil: evil, "count": 1e300 }], "mixed": [1, evil, null] }]),
+                json!([{ "scene": evil, evil: evil, "list": [{ evil: evil, "count": 1e300 }], "mixed": [1, evil,
+                    null] }]),
             ),
         );
         write(
@@ -374,10 +382,12 @@ mod tests {
             "c.json",
             with(
                 "check",
-                json!([{ "format": evil, "tool": 5, "status": evil, "reason": evil, "numbers": [{ "rows": evil, "bar": 1e300 }, evil] }]),
+                json!([{ "format": evil, "tool": 5, "status": evil, "reason": evil, "numbers": [{ "rows": evil,
+                    "bar": 1e300 }, evil] }]),
             ),
         );
-        let model = json!({ "format": "nmt-model", "version": 1e300, "name": evil, "layer_sizes": [1e300, evil], "provenance": { "config": { evil: evil }, "seed": -1, "best_epoch": 1e300, "epochs": 0 } });
+        let model = json!({ "format": "nmt-model", "version": 1e300, "name": evil, "layer_sizes": [1e300, evil],
+            "provenance": { "config": { evil: evil }, "seed": -1, "best_epoch": 1e300, "epochs": 0 } });
         write(folder, "m/model.json", model.to_string());
         write(
             folder,
@@ -484,7 +494,8 @@ mod tests {
         assert!(build(&folder.path().join("none"), &Options::default()).is_err());
     }
 
-    /// The policy's hash is that of what stands between the tags, as a browser computes it. The known answer is RFC 6234's digest of "abc" in base64.
+    /// The policy's hash is that of what stands between the tags, as a browser computes it. The known answer is RFC
+    /// 6234's digest of "abc" in base64.
     #[test]
     fn the_policy_names_the_script() {
         assert_eq!(

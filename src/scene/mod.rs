@@ -99,14 +99,16 @@ pub enum SceneError {
         expected: String,
     },
     /// There is no built-in scene of this name.
-    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml{}", BUILT_IN.join(", "), suggestion(name, BUILT_IN))]
+    #[error("there is no built-in scene '{name}'; choose one of {}, or pass a scene file that ends in .toml{}",
+        BUILT_IN.join(", "), suggestion(name, BUILT_IN))]
     UnknownBuiltIn {
         /// The name.
         name: String,
     },
     /// The picture would take too much memory.
     #[error(
-        "the scene has {fragments} fragments in {pixels} pixels; at most {MAX_FRAGMENTS} are supported, so lower the width and height or use fewer layers"
+        "the scene has {fragments} fragments in {pixels} pixels; at most {MAX_FRAGMENTS} are supported, so lower the \
+            width and height or use fewer layers"
     )]
     TooManyFragments {
         /// Number of fragments.
@@ -339,7 +341,8 @@ mod tests {
 
     #[test]
     fn bad_scene_files_name_the_field() {
-        let camera = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\nwidth = 8\nheight = 8\nnear = 0.1\nfar = 50\n";
+        let camera = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 40\nwidth = 8\nheight = \
+            8\nnear = 0.1\nfar = 50\n";
         let error = |text: String| {
             SceneFile::parse(Path::new("a.toml"), &text)
                 .map(|_| ())

@@ -316,7 +316,8 @@ fn range(targets: &[Target]) -> String {
             "let ends = textureLoad(oit_target{range}, at, 0);\n    let nearest = -ends.x;\n    let farthest = ends.y;"
         ),
         (None, Some((nearest, farthest))) => format!(
-            "let nearest = textureLoad(oit_target{nearest}, at, 0) * oit_frame.scale.y;\n    let farthest = textureLoad(oit_target{farthest}, at, 0) * \
+            "let nearest = textureLoad(oit_target{nearest}, at, 0) * oit_frame.scale.y;\n    let farthest = \
+                textureLoad(oit_target{farthest}, at, 0) * \
              oit_frame.scale.y;"
         ),
         (None, None) => "let nearest = oit_frame.range.x;\n    let farthest = oit_frame.range.y;".to_owned(),

@@ -1,4 +1,5 @@
-//! What is put under stress: methods as they are, networks in every arithmetic and storage, and whatever else answers fragments.
+//! What is put under stress: methods as they are, networks in every arithmetic and storage, and whatever else answers
+//! fragments.
 
 use super::arithmetic::{Flushed, Fused, Rough, Worst};
 use super::cases::Fragments;
@@ -59,8 +60,8 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The same with what the method would answer in double precision, so that rounding can be told from approximation. Subjects whose double has the same name share
-    /// its answers.
+    /// The same with what the method would answer in double precision, so that rounding can be told from approximation.
+    /// Subjects whose double has the same name share its answers.
     pub fn with_double(
         self,
         name: impl Into<String>,
@@ -131,7 +132,8 @@ impl<'a> Subject<'a> {
         checked((self.run)(fragments), fragments)
     }
 
-    /// Its answers without rounding, where it has such and takes the fragments; `doubles` holds those of the same fragments that are known already.
+    /// Its answers without rounding, where it has such and takes the fragments; `doubles` holds those of the same
+    /// fragments that are known already.
     pub fn double<'d>(&self, fragments: &Fragments, doubles: &'d mut Doubles) -> Option<&'d [f64]> {
         let (name, double) = self.double.as_ref()?;
         let answers = doubles
@@ -358,7 +360,8 @@ pub(super) fn to_digits(x: f64, digits: u32) -> f64 {
     f64::from_bits((x.to_bits() + (1 << (dropped - 1))) & !((1 << dropped) - 1))
 }
 
-/// A network whose moments are kept with so many significant binary digits, rounded after every addition; everything else is in double precision.
+/// A network whose moments are kept with so many significant binary digits, rounded after every addition; everything
+/// else is in double precision.
 ///
 /// # Panics
 /// Unless there are 2 to 53 digits.
@@ -466,7 +469,8 @@ impl TwoMoments {
                                 let others = libm::exp(log) - f64::from(recentred::ABSORBANCE_OFFSET);
                                 let variance = spread * (1.0 - mean * mean);
                                 let gap = x - mean;
-                                // Cantelli: the mass on the far side of x is at most that of the atom at x and another one.
+                                // Cantelli: the mass on the far side of x is at most that of the atom at x and another
+                                // one.
                                 let far = variance / (variance + gap * gap);
                                 let share = if gap > 0.0 { 1.0 - 0.5 * far } else { 0.5 * far };
                                 libm::exp(-others * share)
@@ -509,7 +513,8 @@ fn double_precision(mlp: &Mlp, fragments: &Fragments) -> Answers {
     })
 }
 
-/// What the exported shader computes, operation by operation, in arithmetic `R`: pass 1, what is known of each fragment, the network.
+/// What the exported shader computes, operation by operation, in arithmetic `R`: pass 1, what is known of each
+/// fragment, the network.
 fn as_shader<R: Scalar>(mlp: &Mlp, fragments: &Fragments, frame: MomentFrame) -> Answers {
     let whole = fragments
         .context

@@ -101,8 +101,8 @@ pub fn executions(mlps: &[Mlp]) -> Result<Vec<Subject<'static>>, SuiteError> {
     Ok(subjects)
 }
 
-/// Classic methods of these names; "all" stands for every one, "none" for none. Beside [`DEFAULT_METHODS`] and "all" come the methods
-/// with all their arithmetic in single precision.
+/// Classic methods of these names; "all" stands for every one, "none" for none. Beside [`DEFAULT_METHODS`] and "all"
+/// come the methods with all their arithmetic in single precision.
 ///
 /// # Errors
 /// [`SuiteError::Name`].
@@ -236,8 +236,8 @@ fn frames(promise: Promise) -> &'static [MomentFrame] {
     }
 }
 
-/// Evaluates every network for at least so many random fragments, once in one pass and once after a prepass. `progress` is told the
-/// network and how many fragments are done.
+/// Evaluates every network for at least so many random fragments, once in one pass and once after a prepass. `progress`
+/// is told the network and how many fragments are done.
 ///
 /// # Errors
 /// [`SuiteError`] where a network cannot answer.
@@ -302,7 +302,8 @@ fn swept(mlps: &[Mlp]) -> Result<Vec<Subject<'static>>, SuiteError> {
     Ok(subjects)
 }
 
-/// Every place of the three sweeps, with `pixels` random pixels each. `progress` is told how many places are done, and which sweep is next.
+/// Every place of the three sweeps, with `pixels` random pixels each. `progress` is told how many places are done, and
+/// which sweep is next.
 ///
 /// # Errors
 /// [`SuiteError::Shape`].

@@ -96,8 +96,9 @@ pub struct Range {
 
 /// Where the fragments of a pixel lie.
 ///
-/// [`Self::Window`] draws window depths. All others draw a shape, which [`PixelRange`] then puts between the camera's planes in moment depth: the log
-/// warp from near to far, view_z = near (far/near)^((z + 1)/2). A shape lives in [0, 1], and its lengths are shares of that.
+/// [`Self::Window`] draws window depths. All others draw a shape, which [`PixelRange`] then puts between the camera's
+/// planes in moment depth: the log warp from near to far, view_z = near (far/near)^((z + 1)/2). A shape lives in [0,
+/// 1], and its lengths are shares of that.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
@@ -105,7 +106,8 @@ pub enum DepthLaw {
     /// Window depths uniform in a range.
     ///
     /// # Source
-    /// NMT24 Sec. 3.2 gives "fragment depth ranges 0.3 to 1.0" and leaves open what it is a range of; [`DepthReading`] has the readings.
+    /// NMT24 Sec. 3.2 gives "fragment depth ranges 0.3 to 1.0" and leaves open what it is a range of; [`DepthReading`]
+    /// has the readings.
     Window {
         /// Least, in [0, 1].
         min: f64,
@@ -118,8 +120,8 @@ pub enum DepthLaw {
     /// Uniform.
     // A unit variant would take any field without an error.
     Uniform {},
-    /// Each fragment belongs to one of a few clusters and scatters about its centre, half of them by the normal and half by the uniform law;
-    /// centres are uniform. Smoke, hair.
+    /// Each fragment belongs to one of a few clusters and scatters about its centre, half of them by the normal and
+    /// half by the uniform law; centres are uniform. Smoke, hair.
     Clustered {
         /// Number of clusters, uniform.
         clusters: CountRange,
@@ -128,10 +130,12 @@ pub enum DepthLaw {
     },
     /// Thin closed surfaces: each has a front, uniform, and a back behind it. An odd last fragment is a front.
     Paired {
-        /// Greatest distance from front to back, log-uniform, > 0; a pixel draws it once, and each of its surfaces is uniform in [0, gap].
+        /// Greatest distance from front to back, log-uniform, > 0; a pixel draws it once, and each of its surfaces is
+        /// uniform in [0, gap].
         gap: Range,
     },
-    /// The beta law, density proportional to x^(a − 1) (1 − x)^(b − 1): fragments crowd at one end, at both or in the middle.
+    /// The beta law, density proportional to x^(a − 1) (1 − x)^(b − 1): fragments crowd at one end, at both or in the
+    /// middle.
     Beta {
         /// Exponent a, log-uniform, drawn once a pixel, in [`BETA_SHAPES`].
         a: Range,
@@ -148,8 +152,8 @@ pub enum DepthReading {
     /// Each fragment's window depth is uniform in the range.
     #[default]
     PerFragment,
-    /// A pixel's extent e = zmax − zmin is uniform in the range, its place uniform within [0, 1 − e]; one fragment lies at each end and the
-    /// others are uniform between. A single fragment is uniform in [0, 1].
+    /// A pixel's extent e = zmax − zmin is uniform in the range, its place uniform within [0, 1 − e]; one fragment lies
+    /// at each end and the others are uniform between. A single fragment is uniform in [0, 1].
     PixelExtent,
 }
 
@@ -158,8 +162,9 @@ pub enum DepthReading {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PixelRange {
-    /// Half the pixel's range, h: log-uniform, in (0, 1]. The centre c is uniform in [h − 1, 1 − h], and the drawn shape is stretched until its nearest
-    /// fragment lies at c − h and its farthest at c + h. Fragments that all tie, or a single one, lie at c.
+    /// Half the pixel's range, h: log-uniform, in (0, 1]. The centre c is uniform in [h − 1, 1 − h], and the drawn
+    /// shape is stretched until its nearest fragment lies at c − h and its farthest at c + h. Fragments that all tie,
+    /// or a single one, lie at c.
     pub half: Range,
 }
 
@@ -223,8 +228,9 @@ pub enum AlphaReading {
     PerFragment,
     /// All of the pixel.
     PerPixel,
-    /// Those of one object. The pixel draws one to four materials, and each object is made of one of them. Front and back of a paired surface are one
-    /// object, as is a cluster; under the other depth laws each fragment is an object of its own.
+    /// Those of one object. The pixel draws one to four materials, and each object is made of one of them. Front and
+    /// back of a paired surface are one object, as is a cluster; under the other depth laws each fragment is an object
+    /// of its own.
     PerObject,
 }
 
@@ -299,8 +305,9 @@ impl SynthConfig {
         }
     }
 
-    /// A wide distribution, for networks that are to serve scenes which nobody has seen yet: few and many fragments, thin closed surfaces, clusters and
-    /// clouds, faint and nearly opaque, spread over the whole depth range or over very little of it.
+    /// A wide distribution, for networks that are to serve scenes which nobody has seen yet: few and many fragments,
+    /// thin closed surfaces, clusters and clouds, faint and nearly opaque, spread over the whole depth range or over
+    /// very little of it.
     ///
     /// It is what `configs/recommended.toml` says, which names what each law stands for.
     pub fn wide() -> Self {

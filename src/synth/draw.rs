@@ -153,8 +153,8 @@ fn normals(radii: &mut [f64], angles: &mut [f64]) {
     dispatch!(Level::new(), simd => all(simd, radii, angles));
 }
 
-/// Units to come, each with its logarithm and with the sine and cosine of its share of a turn: which of them will serve for what is not known beforehand, as draws
-/// that are rejected shift all that follow.
+/// Units to come, each with its logarithm and with the sine and cosine of its share of a turn: which of them will serve
+/// for what is not known beforehand, as draws that are rejected shift all that follow.
 #[derive(Default)]
 struct Ahead {
     units: Vec<f64>,
@@ -256,10 +256,12 @@ impl Gamma {
         }
     }
 
-    /// A number and the logarithm of its factor, which is 0 where there is none; `wanted` units will be taken in about all that follows.
+    /// A number and the logarithm of its factor, which is 0 where there is none; `wanted` units will be taken in about
+    /// all that follows.
     ///
     /// # Source
-    /// Marsaglia and Tsang, *A simple method for generating gamma variables*, 2000; shapes below 1 by their Sec. 6: γ(a) = γ(a + 1) u^(1/a).
+    /// Marsaglia and Tsang, *A simple method for generating gamma variables*, 2000; shapes below 1 by their Sec. 6:
+    /// γ(a) = γ(a + 1) u^(1/a).
     #[inline]
     fn draw(&self, rng: &mut Stream, ahead: &mut Ahead, wanted: usize) -> (f64, f64) {
         let gamma = loop {
@@ -578,10 +580,12 @@ impl Shape {
     }
 }
 
-/// Clusters of n fragments, and how far each lies from its cluster's centre, in standard deviations: half of them by the normal and half by the uniform law.
+/// Clusters of n fragments, and how far each lies from its cluster's centre, in standard deviations: half of them by
+/// the normal and half by the uniform law.
 ///
-/// Every fragment takes a word for its cluster, two to choose the law, and two or four more: normal numbers come in pairs, of which the second takes none. Which
-/// words serve what is settled first, without a branch; then all normal numbers are computed at once.
+/// Every fragment takes a word for its cluster, two to choose the law, and two or four more: normal numbers come in
+/// pairs, of which the second takes none. Which words serve what is settled first, without a branch; then all normal
+/// numbers are computed at once.
 fn scatter(
     rng: &mut Stream,
     n: usize,
@@ -619,7 +623,8 @@ fn scatter(
     }
 }
 
-/// Moves and scales depths until the least is center − half and the greatest is center + half, to the bit. Depths that all tie go to the centre.
+/// Moves and scales depths until the least is center − half and the greatest is center + half, to the bit. Depths that
+/// all tie go to the centre.
 fn stretch(depth: &mut [f64], center: f64, half: f64) {
     #[inline(always)]
     fn ends<S: Simd>(simd: S, x: &[f64]) -> (f64, f64) {
@@ -790,7 +795,8 @@ mod tests {
         values.iter().sum::<f64>() / values.len() as f64
     }
 
-    /// Whether the mean of `f` over the values is `expected`, within 5 standard errors as the values themselves have them.
+    /// Whether the mean of `f` over the values is `expected`, within 5 standard errors as the values themselves have
+    /// them.
     fn has_mean(values: &[f64], f: impl Fn(f64) -> f64, expected: f64) -> bool {
         let values: Vec<f64> = values.iter().map(|&x| f(x)).collect();
         let found = mean(&values);
@@ -960,8 +966,8 @@ mod tests {
         ));
     }
 
-    /// Clusters and beta laws drawn number by number with scalar functions, in the order in which words are taken: the same depths to the bit as many at once, and
-    /// as many words taken. Control: the pixel before.
+    /// Clusters and beta laws drawn number by number with scalar functions, in the order in which words are taken: the
+    /// same depths to the bit as many at once, and as many words taken. Control: the pixel before.
     #[test]
     fn many_at_once_are_those_drawn_one_by_one() {
         struct Plain {

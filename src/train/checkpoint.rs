@@ -61,7 +61,8 @@ pub enum CheckpointError {
         reason: String,
     },
     /// It has gone further than is asked for.
-    #[error("{}: {done} epochs are done already, more than the {epochs} that are asked for; ask for at least {done}, or train anew", path.display())]
+    #[error("{}: {done} epochs are done already, more than the {epochs} that are asked for; ask for at least {done}, \
+        or train anew", path.display())]
     Further {
         /// The file.
         path: PathBuf,
@@ -71,7 +72,8 @@ pub enum CheckpointError {
         epochs: u64,
     },
     /// It belongs to another training.
-    #[error("{}: the checkpoint is of a training with another {what}; use the configuration it began with, or remove it to train anew", path.display())]
+    #[error("{}: the checkpoint is of a training with another {what}; use the configuration it began with, or remove \
+        it to train anew", path.display())]
     Other {
         /// The file.
         path: PathBuf,
@@ -122,7 +124,8 @@ impl Checkpoint {
     /// Checks that it belongs to a training; only the number of epochs may differ.
     ///
     /// # Errors
-    /// [`CheckpointError::Other`] names what differs, [`CheckpointError::Unreadable`] where its arrays do not fit the network.
+    /// [`CheckpointError::Other`] names what differs, [`CheckpointError::Unreadable`] where its arrays do not fit the
+    /// network.
     pub fn check(
         &self,
         path: &Path,

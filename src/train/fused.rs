@@ -1,7 +1,8 @@
-//! The training kernel: forward pass, loss, backward pass and gradient sums of a tile of rows in one go, on all cores, in explicit SIMD.
+//! The training kernel: forward pass, loss, backward pass and gradient sums of a tile of rows in one go, on all cores,
+//! in explicit SIMD.
 //!
-//! A batch is cut into chunks of 128 blocks whatever the number of threads; each chunk sums its own gradient in a fixed order, and the chunks' gradients
-//! are added in order. So the result depends on the SIMD level alone.
+//! A batch is cut into chunks of 128 blocks whatever the number of threads; each chunk sums its own gradient in a fixed
+//! order, and the chunks' gradients are added in order. So the result depends on the SIMD level alone.
 
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
@@ -16,7 +17,8 @@ use rayon::prelude::*;
 /// Blocks of rows that one task takes: 2048 rows.
 const CHUNK: usize = 128;
 
-/// Errors and their derivatives below these are 0: what they would add is lost in rounding, and denormal numbers would make every multiplication slow.
+/// Errors and their derivatives below these are 0: what they would add is lost in rounding, and denormal numbers would
+/// make every multiplication slow.
 const MIN_ERROR: f32 = 1e-12;
 const MIN_DERIVATIVE: f32 = 1e-18;
 
@@ -335,7 +337,8 @@ fn kernel_for(sizes: &[usize]) -> Kernel {
 
 #[inline(never)]
 fn any(level: Level, sizes: &[usize], p: &[f32], answer: Answer, batch: Batch<'_>, work: &mut Workspace, scale: f32) {
-    dispatch!(level, simd => chunk(simd, batch, work, #[inline(always)] |batch, work| tile(simd, sizes, p, answer, batch, work, scale)));
+    dispatch!(level, simd => chunk(simd, batch, work, #[inline(always)] |batch, work| tile(simd, sizes, p, answer,
+        batch, work, scale)));
 }
 
 /// A network being fitted by the fused kernel.

@@ -6,7 +6,8 @@ use nmt::scene::{self, Options, SceneFile};
 use std::io::Cursor;
 use std::path::Path;
 
-const CAMERA: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 30\nwidth = 16\nheight = 16\nnear = 1\nfar = 20\n";
+const CAMERA: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 30\nwidth = 16\nheight = \
+    16\nnear = 1\nfar = 20\n";
 
 /// A square from (-1, -1) to (1, 1), which covers 144 of the 256 pixels.
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
@@ -265,8 +266,10 @@ impl Gltf<'_> {
             r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
 "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0{}}},"indices":1,"material":0}}]}}],
 "materials":[{}],
-"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},{{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}}{}],
-"bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":12}},{{"buffer":0,"byteOffset":{own},"byteLength":{}}}],
+"accessors":[{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
+{{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}}{}],
+"bufferViews":[{{"buffer":0,"byteLength":48}},
+{{"buffer":0,"byteOffset":48,"byteLength":12}},{{"buffer":0,"byteOffset":{own},"byteLength":{}}}],
 "buffers":[{{"byteLength":{},"uri":"data:application/octet-stream;base64,{}"}}]{}}}"#,
             self.attributes,
             self.material,
@@ -312,7 +315,8 @@ fn textures_of_gltf_carry_alpha() {
     };
     let root = |image: &[u8], kind: &str| {
         format!(
-            r#","textures":[{{"source":0,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071}}],"images":[{{"uri":"data:image/{kind};base64,{}"}}]"#,
+            r#","textures":[{{"source":0,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071}}],
+"images":[{{"uri":"data:image/{kind};base64,{}"}}]"#,
             base64(image)
         )
     };
@@ -449,7 +453,8 @@ fn what_gltf_holds_besides_is_said_and_valid_files_are_read() {
             list.left_out()
         );
     }
-    let old = r#"{"name":"old","alphaMode":"BLEND","extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,0.3]}}}"#;
+    let old = r#"{"name":"old","alphaMode":"BLEND",
+"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,0.3]}}}"#;
     let list = Gltf {
         material: old,
         root: r#","extensionsRequired":["KHR_materials_pbrSpecularGlossiness"]"#,
@@ -468,8 +473,10 @@ fn what_gltf_holds_besides_is_said_and_valid_files_are_read() {
         .unwrap(),
         "OPAQUE"
     ));
-    let root = r#","animations":[{"samplers":[],"channels":[]}],"skins":[{"joints":[0]}],"cameras":[{"type":"orthographic"}],"extensionsUsed":["KHR_lights_punctual"],
-        "extensionsRequired":["KHR_lights_punctual","KHR_materials_unlit","VRMC_materials_mtoon"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}}"#;
+    let root = r#","animations":[{"samplers":[],"channels":[]}],"skins":[{"joints":[0]}],
+        "cameras":[{"type":"orthographic"}],"extensionsUsed":["KHR_lights_punctual"],
+        "extensionsRequired":["KHR_lights_punctual","KHR_materials_unlit","VRMC_materials_mtoon"],
+        "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}}"#;
     let list = Gltf { root, ..PLAIN }.seen().unwrap();
     assert!(
         ["animations (1)", "cameras (1)", "lights (1)"]
@@ -559,7 +566,8 @@ fn compressed_quantised_and_sparse_geometry_is_read_or_refused_by_name() {
     );
     let sparse = Gltf { data, ..PLAIN }.text().replace(
         r#""count":4,"type":"VEC3""#,
-        r#""count":4,"type":"VEC3","sparse":{"count":2,"indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":2,"byteOffset":4}}"#,
+        r#""count":4,"type":"VEC3","sparse":{"count":2,
+"indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":2,"byteOffset":4}}"#,
     );
     assert_eq!(seen(&[("a.gltf", sparse.as_bytes())], "a.gltf").unwrap().len(), 72);
 }

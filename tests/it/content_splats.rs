@@ -227,7 +227,8 @@ fn what_is_no_splat_is_counted_or_refused() {
     }
 }
 
-const CAMERA: &str = "[camera]\nposition = [0.3, -0.4, -4]\nlook_at = [0, 0, 0]\nup = [0, -1, 0]\nvertical_fov = 40\nwidth = 64\nheight = 48\nnear = 0.5\nfar = 20\n";
+const CAMERA: &str = "[camera]\nposition = [0.3, -0.4, -4]\nlook_at = [0, 0, 0]\nup = [0, -1, 0]\nvertical_fov = \
+    40\nwidth = 64\nheight = 48\nnear = 0.5\nfar = 20\n";
 
 fn seen(folder: &Path, splats: &[Splat], more: &str) -> FragmentList {
     std::fs::write(folder.join("a.splat"), as_splat(splats)).unwrap();
@@ -278,7 +279,8 @@ fn splats_are_placed_by_the_scene_file() {
     let plain = seen(folder.path(), &splats(), "");
     let turned = seen(folder.path(), &splats(), "rotate = [0, 0, 180]\n");
     assert_ne!(plain, turned);
-    let twice = "rotate = [0, 0, 360]\ntranslate = [0, 0, 0]\nscale = 1\n[[splats]]\nfile = \"a.splat\"\nscale = 1e-9\ntranslate = [0, 0, -90]\n";
+    let twice = "rotate = [0, 0, 360]\ntranslate = [0, 0, 0]\nscale = 1\n[[splats]]\nfile = \"a.splat\"\nscale = \
+        1e-9\ntranslate = [0, 0, -90]\n";
     let again = seen(folder.path(), &splats(), twice);
     assert_eq!((plain.offsets(), plain.view_z()), (again.offsets(), again.view_z()));
     assert!(

@@ -9,9 +9,12 @@ use std::time::{Duration, Instant};
 
 fn config(seed: u64, epochs: u64, pairs: u64) -> String {
     format!(
-        "name = \"tiny\"\nseed = {seed}\n[synth]\ncamera = {{ near = 0.1, far = 100.0 }}\n[[synth.pixels]]\nfragments = {{ min = 2, max = 8 }}\n\
-         depth = {{ law = \"window\", min = 0.3, max = 1.0 }}\nalpha = {{ law = \"uniform\", min = 0.1, max = 0.5 }}\n[dataset]\nfeatures = \"paper\"\n\
-         training_pairs = {pairs}\nvalidation_pairs = 500\n[train]\nhidden = [8, 4]\nepochs = {epochs}\nbatch = 256\nlearning_rate = 1e-2\n[evaluate]\npairs = 1000\n"
+        "name = \"tiny\"\nseed = {seed}\n[synth]\ncamera = {{ near = 0.1, far = 100.0 }}\n[[synth.pixels]]\nfragments \
+            = {{ min = 2, max = 8 }}\n\
+         depth = {{ law = \"window\", min = 0.3, max = 1.0 }}\nalpha = {{ law = \"uniform\", min = 0.1, max = 0.5 \
+         }}\n[dataset]\nfeatures = \"paper\"\n\
+         training_pairs = {pairs}\nvalidation_pairs = 500\n[train]\nhidden = [8, 4]\nepochs = {epochs}\nbatch = \
+         256\nlearning_rate = 1e-2\n[evaluate]\npairs = 1000\n"
     )
 }
 

@@ -1,4 +1,5 @@
-//! What the documents show: every command of README, docs/ and `--help` is run, on small sizes; links lead somewhere; no line is too long.
+//! What the documents show: every command of README, docs/ and `--help` is run, on small sizes; links lead somewhere;
+//! no line is too long.
 
 use crate::common::{Workplace, command, nmt};
 use nmt::numeric::require::or_skip;

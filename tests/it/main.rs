@@ -14,6 +14,7 @@ mod core;
 mod docs;
 mod documents;
 mod layers;
+mod lines;
 mod methods;
 mod over_time;
 mod python;

@@ -19,7 +19,8 @@ const FORMATS: [Format; 6] = [
     Format::HLSL_PLAIN,
 ];
 
-/// The source with the items of every constant array of weights replaced by their number of lines and their digest: a snapshot is there to be read.
+/// The source with the items of every constant array of weights replaced by their number of lines and their digest: a
+/// snapshot is there to be read.
 fn without_weights(source: &str) -> String {
     let mut out = String::new();
     let mut items: Option<String> = None;

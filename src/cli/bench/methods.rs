@@ -259,9 +259,11 @@ fn row_json(scene: &str, c: &Cost) -> Value {
     let per_fragment = |seconds: f64| 1e9 * seconds / c.fragments as f64;
     let both = Summary::of(&c.both);
     let row = json!({
-        "benchmark": "methods", "scene": scene, "method": c.method, "network": c.network, "format": c.format, "adapter": c.adapter,
+        "benchmark": "methods", "scene": scene, "method": c.method, "network": c.network, "format": c.format,
+            "adapter": c.adapter,
         "arithmetic": c.arithmetic, "clock": c.clock.name(), "fragments": c.fragments,
-        "transmittance_mse": c.transmittance_mse, "image_mse": c.image_mse, "flip_mean": c.flip_mean, "nonfinite": c.nonfinite,
+        "transmittance_mse": c.transmittance_mse, "image_mse": c.image_mse, "flip_mean": c.flip_mean,
+            "nonfinite": c.nonfinite,
         "image_nonfinite": c.image_nonfinite, "on_front": c.on_front,
         "seconds": both.median, "nanoseconds_per_fragment": per_fragment(both.median), "raw_seconds": c.both,
         "min_seconds": both.min, "max_seconds": both.max, "mad_seconds": both.mad,
@@ -275,7 +277,8 @@ fn row_json(scene: &str, c: &Cost) -> Value {
     );
     let apart = json!({
         "seconds_accumulate": accumulate, "seconds_weights": weights,
-        "nanoseconds_per_fragment_accumulate": per_fragment(accumulate), "nanoseconds_per_fragment_weights": per_fragment(weights),
+        "nanoseconds_per_fragment_accumulate": per_fragment(accumulate),
+            "nanoseconds_per_fragment_weights": per_fragment(weights),
         "raw_seconds_accumulate": passes.accumulate, "raw_seconds_weights": passes.weights,
     });
     merged(row, apart)
@@ -331,10 +334,12 @@ fn table_text(t: &Table, repeat: usize) -> String {
     };
     let what = match t.processor {
         Processor::Gpu => format!(
-            "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1 and has only the fragment and its pixel's total to load."
+            "Pass 1 is a thread a pixel, pass 2 a thread a fragment. '{NONE}' weighs all by 1 and has only the \
+                fragment and its pixel's total to load."
         ),
         Processor::Cpu => {
-            "Classic methods are this program's f64 reference code, not SIMD; networks f32 SIMD, their passes not apart. For a fair race see a GPU."
+            "Classic methods are this program's f64 reference code, not SIMD; networks f32 SIMD, their passes not \
+                apart. For a fair race see a GPU."
                 .to_owned()
         }
     };
@@ -344,7 +349,8 @@ fn table_text(t: &Table, repeat: usize) -> String {
         .map(|l| format!("left out: {}, {}\n", l.method, l.why))
         .collect();
     format!(
-        "{}, {}\n{}ns a fragment, medians of {repeat} interleaved repetitions. *: nothing else is as fast at as small an {error}.\n{what}\n{left}",
+        "{}, {}\n{}ns a fragment, medians of {repeat} interleaved repetitions. *: nothing else is as fast at as small \
+            an {error}.\n{what}\n{left}",
         t.adapter,
         t.clock.name(),
         table(&rows)

@@ -36,7 +36,8 @@ enum What {
     /// Time of transparency methods and networks on a fragment list against their error, on the CPU and the GPU.
     #[command(after_help = examples::BENCH_METHODS)]
     Methods(methods::BenchMethods),
-    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only for the fragments that need it or can be seen.
+    /// Time of a frame on the GPU: drawn, in compute passes, and with the network only for the fragments that need it
+    /// or can be seen.
     #[command(after_help = examples::BENCH_TILES)]
     Tiles(tiles::BenchTiles),
 }
@@ -182,7 +183,8 @@ impl<'a> Turns<'a> {
             return;
         };
         self.ui.warn(&format!(
-            "warning: {} of {} figures are uncertain; the slowest repetition of {name} took {:.1} times as long as the fastest. Something else may be \
+            "warning: {} of {} figures are uncertain; the slowest repetition of {name} took {:.1} times as long as the \
+                fastest. Something else may be \
              running: stop it and measure again, or try --repeat {} and a longer --sample-seconds",
             restless.len(),
             results.len(),
@@ -196,7 +198,8 @@ impl<'a> Turns<'a> {
 fn timing(seconds: &[f64], calls: u64) -> Value {
     let s = Summary::of(seconds);
     json!({
-        "seconds": s.median, "min_seconds": s.min, "max_seconds": s.max, "mad_seconds": s.mad, "raw_seconds": seconds, "calls_per_repetition": calls,
+        "seconds": s.median, "min_seconds": s.min, "max_seconds": s.max, "mad_seconds": s.mad, "raw_seconds": seconds,
+            "calls_per_repetition": calls,
         "repetitions": seconds.len(), "threads": rayon::current_num_threads(),
     })
 }
@@ -211,7 +214,8 @@ fn merged(mut first: Value, second: Value) -> Value {
 
 fn measurement_json(what: &str, rates: &[&str], m: &Measurement) -> Value {
     let mut object = json!({
-        "benchmark": what, "network": m.network, "backend": m.backend, "batch": m.batch, "simd": m.simd, "adapter": m.adapter,
+        "benchmark": what, "network": m.network, "backend": m.backend, "batch": m.batch, "simd": m.simd,
+            "adapter": m.adapter,
         "gflops": m.gflops(), "share_of_peak": m.share_of_peak(),
         "multiply_add_peak_gflops": m.peak_gflops(), "raw_multiply_add_peak_flops_per_second": m.peak.rates,
     });
@@ -284,7 +288,8 @@ fn measurement_table(unit: &str, groups: &[Vec<Measurement>]) -> String {
         })
         .collect();
     format!(
-        "{}Medians of {first} interleaved repetitions on {} threads, with their median absolute deviation (MAD); ms of one call.\n\
+        "{}Medians of {first} interleaved repetitions on {} threads, with their median absolute deviation (MAD); ms of \
+            one call.\n\
          Multiply-add peak {range} GFLOP/s, the best of the same repetitions{on_gpus}.\n\n{sentences}",
         table(&rows),
         rayon::current_num_threads()

@@ -19,7 +19,8 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct BenchTiles {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
-    #[arg(long, value_name = "F.npz|SCENE", value_delimiter = ',', num_args = 1.., default_values = ["teapots", "foliage", "hair"])]
+    #[arg(long, value_name = "F.npz|SCENE", value_delimiter = ',', num_args = 1.., default_values = ["teapots",
+        "foliage", "hair"])]
     fragments: Vec<String>,
     /// Networks.
     #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1.., required = true)]
@@ -71,10 +72,13 @@ impl BenchTiles {
 fn sample_json(scene: &str, frames: &Frames, s: &FrameSamples) -> Value {
     let pixels = s.work.and_then(|w| w.pixels);
     json!({
-        "benchmark": "tiles", "scene": scene, "method": frames.method, "adapter": frames.adapter, "passes": s.way.name(), "skip": s.way.skip(),
+        "benchmark": "tiles", "scene": scene, "method": frames.method, "adapter": frames.adapter,
+            "passes": s.way.name(), "skip": s.way.skip(),
         "fragments": frames.fragments, "fragments_evaluated": s.work.map(|w| w.evaluated),
-        "pixels_network": pixels.map(|p| p.network), "pixels_hiding": pixels.map(|p| p.hiding), "pixels_known": pixels.map(|p| p.known),
-        "greatest_change": s.work.map(|w| w.greatest_change), "flip_change": s.work.map(|w| w.flip_change), "speedup": frames.speedup(s),
+        "pixels_network": pixels.map(|p| p.network), "pixels_hiding": pixels.map(|p| p.hiding),
+            "pixels_known": pixels.map(|p| p.known),
+        "greatest_change": s.work.map(|w| w.greatest_change), "flip_change": s.work.map(|w| w.flip_change),
+            "speedup": frames.speedup(s),
         "seconds_accumulate": Summary::of(&s.accumulate).median, "seconds_weights": Summary::of(&s.weights).median,
         "raw_seconds_accumulate": s.accumulate, "raw_seconds_weights": s.weights,
     })
@@ -136,7 +140,8 @@ fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
         }
     }
     format!(
-        "{}{}, by {}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling pixels apart; speed of pass 2 against compute passes \
+        "{}{}, by {}, medians of {repeat} repetitions by turns; pass 2 with the resolve, and with telling pixels \
+            apart; speed of pass 2 against compute passes \
          that skip nothing, greatest change of a channel (1/512 = 2.0e-3) and FLIP against their image\n",
         table(&lines),
         gpu.name(),

@@ -119,7 +119,8 @@ fn order_note(result: &MethodResult) -> String {
         "T-MSE"
     };
     format!(
-        "{ORDER_MARK} {} depends on the order: mean of {fragments} random orders of fragments{of_objects}, {what} from {least:.2e} to {greatest:.2e}\n",
+        "{ORDER_MARK} {} depends on the order: mean of {fragments} random orders of fragments{of_objects}, {what} from \
+            {least:.2e} to {greatest:.2e}\n",
         result.method
     )
 }
@@ -273,7 +274,8 @@ pub(super) fn comparison(scenes: &[SceneResults]) -> String {
             shown(c.mean)
         );
     }
-    text + "\nImage MSE, lower is better. Bits a pixel: sums, ranges, layers and cores; the colour accumulator stands apart. \
+    text + "\nImage MSE, lower is better. Bits a pixel: sums, ranges, layers and cores; the colour accumulator stands \
+        apart. \
         In the geometric mean an error that nobody sees, below a sixteenth of an 8-bit step, counts as that. \
         † depends on the order of the fragments: means over random orders of fragments and of whole objects.\n"
 }

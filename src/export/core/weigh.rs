@@ -54,8 +54,8 @@ pub fn weigh(set: CoreSet, language: CoreLanguage) -> String {
     whole(set, language, Tail::Law)
 }
 
-/// `nmt_core_transmittance` of a core whose tail a network shares out, and what it calls, which stand behind the codes and
-/// the network's export.
+/// `nmt_core_transmittance` of a core whose tail a network shares out, and what it calls, which stand behind the codes
+/// and the network's export.
 ///
 /// # Panics
 /// If there are more than [`MAX_SHADER_MOMENTS`] moments.
@@ -220,8 +220,8 @@ fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R;
 /// Transmittance in front of a fragment: the beta law shares the tail out where nothing is known of it.
 ///
 /// # Shapes
-/// `core` begins with the nearest and the farthest fragment; `n` counts the fragments of the pixel that absorb, `b` holds
-/// b_0..b_M.
+/// `core` begins with the nearest and the farthest fragment; `n` counts the fragments of the pixel that absorb, `b`
+/// holds b_0..b_M.
 #[inline(always)]
 pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R; N], depth_bits: u32) -> R {
     let q = query(own, core, n, b, depth_bits);

@@ -18,16 +18,14 @@
 //!   m = u & (2^23 − 1), h = m >> 11, l = m & 2047,
 //!   t = ((h (4096 − h)) >> 1) + ((l (2048 − h)) >> 11), the second product and shift *signed*;
 //!   log2_bits = u + ((11 t) >> 5).
-//! * depth, v the view depth, v0 and v1 the scene's least and greatest:
-//!   w = (log2_bits(clamp(bits(v), bits(v0), bits(v1))) − log2_bits(bits(v0))) >> shift, clamped as *signed*
-//!   integers;
-//!   q = (w · multiplier) >> (31 − D), in 0..2^D, 0 the nearest;
-//!   it stands for moment depth z = (2q + 1)/2^D − 1, an exact `f32` within (−1, 1).
-//!   `shift` is the least that leaves w below 2^(D+1), and `multiplier` = ⌊2^31/(W + 1)⌋, W the greatest w; the product is below 2^31.
-//!   (Rounding the multiplier down leaves the last few steps unused: up to 66 of 65,536 for D = 16.)
-//! * absorbance, A in [0, 10], A0 = 2^−10:
-//!   a = (bits(A + A0) − bits(A0) + 2^(22−B)) >> (23 − B); it stands for float(bits(A0) + (a << (23 − B))) − A0, which is an exact difference.
-//!   So steps are 2^B to the octave where A is well above A0 and linear below; a = 0 stands for 0, and A = 10 is the last of them.
+//! * depth, v the view depth, v0 and v1 the scene's least and greatest: w = (log2_bits(clamp(bits(v), bits(v0),
+//!   bits(v1))) − log2_bits(bits(v0))) >> shift, clamped as *signed* integers; q = (w · multiplier) >> (31 − D), in
+//!   0..2^D, 0 the nearest; it stands for moment depth z = (2q + 1)/2^D − 1, an exact `f32` within (−1, 1). `shift` is
+//!   the least that leaves w below 2^(D+1), and `multiplier` = ⌊2^31/(W + 1)⌋, W the greatest w; the product is below
+//!   2^31. (Rounding the multiplier down leaves the last few steps unused: up to 66 of 65,536 for D = 16.)
+//! * absorbance, A in [0, 10], A0 = 2^−10: a = (bits(A + A0) − bits(A0) + 2^(22−B)) >> (23 − B); it stands for
+//!   float(bits(A0) + (a << (23 − B))) − A0, which is an exact difference. So steps are 2^B to the octave where A is
+//!   well above A0 and linear below; a = 0 stands for 0, and A = 10 is the last of them.
 //!
 //! # Codes
 //!
@@ -54,10 +52,13 @@
 //!
 //! # Special cases
 //!
-//! * A fragment with a = 0 (alpha below about 2e-7) absorbs nothing and is not offered. It may lie in front of the nearest or behind the farthest.
-//! * A pixel's only fragment stands in the slot of the nearest; the farthest is empty. With two the heavy slots are empty.
-//! * Fragments of one depth step are ties: none is in front of another. Which of them is an end is decided by a, and codes that are equal cannot be told apart, nor need they: both
-//!   would say the same. A fragment recognises itself by (q, a); where its double fell off the chain, that one takes itself for the one that stayed.
+//! * A fragment with a = 0 (alpha below about 2e-7) absorbs nothing and is not offered. It may lie in front of the
+//!   nearest or behind the farthest.
+//! * A pixel's only fragment stands in the slot of the nearest; the farthest is empty. With two the heavy slots are
+//!   empty.
+//! * Fragments of one depth step are ties: none is in front of another. Which of them is an end is decided by a, and
+//!   codes that are equal cannot be told apart, nor need they: both would say the same. A fragment recognises itself by
+//!   (q, a); where its double fell off the chain, that one takes itself for the one that stayed.
 //! * Opaque fragments have A = 10 like all that is clamped.
 //! * A fragment outside the scene's depth range has the first or the last depth step and is tied with what is there.
 
@@ -506,7 +507,8 @@ mod tests {
         }
     }
 
-    /// The key orders by A / v^k: to within what reading bits as a logarithm is off: 0.0861 octaves of absorbance, 0.0081 of depth.
+    /// The key orders by A / v^k: to within what reading bits as a logarithm is off: 0.0861 octaves of absorbance,
+    /// 0.0081 of depth.
     #[test]
     fn keys_weigh_absorbance_against_depth() {
         let layout = LAYOUTS[0];
@@ -546,7 +548,8 @@ mod tests {
             // Alpha 0 and 1 among them.
             let spread = |f: &[(u32, u32)]| -> Vec<CoreFragment> {
                 f.iter()
-                    .map(|&(q, a)| CoreFragment { depth_step: q * codes.last_depth_step() / 5, absorbance_step: a * most / 4 })
+                    .map(|&(q, a)| CoreFragment { depth_step: q * codes.last_depth_step() / 5,
+                        absorbance_step: a * most / 4 })
                     .collect()
             };
             let (one, other) = (spread(&steps), spread(&shuffled));

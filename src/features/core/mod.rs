@@ -156,7 +156,8 @@ const fn spec<const M: usize>(name: &'static str, answer: &'static str, heavy: u
 
 /// The row of features from its parts, as functions behind it take it.
 fn write_features<const M: usize>(source: &Source) {
-    let about = "The features of a fragment that needs the network, from its three numbers and the means and spreads of the \
+    let about = "The features of a fragment that needs the network, from its three numbers and the means and spreads \
+        of the \
                  tail.";
     let names = columns(0);
     let numbers = names.iter().map(|&name| (name, Type::Real));

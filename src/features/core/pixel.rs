@@ -282,8 +282,8 @@ mod tests {
     }
 
     /// As many fragments as the core holds, near-opaque ones among them: exact but for rounding, 2e-6. One and two
-    /// fragments of tail, with absorbances from 1e-3 beside up to 10: in the mean square. Control: a pixel's answers for
-    /// the fragment beside.
+    /// fragments of tail, with absorbances from 1e-3 beside up to 10: in the mean square. Control: a pixel's answers
+    /// for the fragment beside.
     #[test]
     fn cores_and_short_tails_are_exact() {
         let mut rng = stream(1, 121, 0);

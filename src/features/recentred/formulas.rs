@@ -71,7 +71,8 @@ pub fn moment_depth<R: Real>(v: R, [v0, v1]: [R; 2]) -> R {
 pub fn moments<R: Real, const K: usize>(z: R, absorbance: R) -> [R; K] {
     R::step_array(
         "moments",
-        "Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.",
+        "Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it \
+            adds 1.",
         [("z", z), ("absorbance", absorbance)],
         ("", []),
         "own",

@@ -52,15 +52,21 @@ pub fn columns(moments: usize) -> &'static [&'static str] {
 
 /// What the columns mean.
 pub const DESCRIPTION: [&str; 12] = [
-    "v is distance along the view direction and z = 2 ln(v/v0)/ln(v1/v0) - 1 moment depth, v0 and v1 the scene's least and greatest v;",
+    "v is distance along the view direction and z = 2 ln(v/v0)/ln(v1/v0) - 1 moment depth, v0 and v1 the scene's least \
+        and greatest v;",
     "pass 1 adds up b_k = sum of A z^k, counts fragments (n) and keeps the pixel's least and greatest v as f32.",
-    "A = min(-ln(1 - alpha), 10) is a fragment's absorbance; primed quantities leave out the fragment's own, b_k' = b_k - A z^k.",
-    "c and h are middle and half of the pixel's range of z; m_k = moments of the others in (z - c)/h, normalised by b_0'.",
+    "A = min(-ln(1 - alpha), 10) is a fragment's absorbance; primed quantities leave out the fragment's own, b_k' = \
+        b_k - A z^k.",
+    "c and h are middle and half of the pixel's range of z; m_k = moments of the others in (z - c)/h, normalised by \
+        b_0'.",
     "x = (z - c)/h, count = log2(n)/3 - 1, ln_b0 = ln(b_0' + 0.05);",
-    "mean = m_1, spread = (m_2 - m_1^2)/(1 - m_1^2); inner_ of (1 - x^2) times the measure: mean = (m_1 - m_3)/(1 - m_2),",
-    "spread = the square root of the same ratio of its own; inner2_ and inner3_ of (1 - x^2)^2 and (1 - x^2)^3, faded out where f32 leaves noise.",
+    "mean = m_1, spread = (m_2 - m_1^2)/(1 - m_1^2); inner_ of (1 - x^2) times the measure: mean = (m_1 - m_3)/(1 - \
+        m_2),",
+    "spread = the square root of the same ratio of its own; inner2_ and inner3_ of (1 - x^2)^2 and (1 - x^2)^3, faded \
+        out where f32 leaves noise.",
     "The answer is T = exp(-b_0' s), s the network's sigmoid: the share of the other absorbance that lies in front.",
-    "Not part of the network, and to be applied before it, in this order: nearest in its pixel (v compared bit for bit): T = 1;",
+    "Not part of the network, and to be applied before it, in this order: nearest in its pixel (v compared bit for \
+        bit): T = 1;",
     "b_0' <= 1e-6 b_0: T = 1; farthest: T = exp(-b_0'); three fragments: T = exp(-b_0' (1 - m_1)/2);",
     "four fragments: the closed form in nmt_recentred.",
     "So pixels of up to four fragments, and all that is nearest or farthest, never need the network.",

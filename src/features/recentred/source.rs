@@ -164,7 +164,8 @@ fn fragment_transmittance<const K: usize>(source: &Source) {
 /// The network for what can be seen.
 fn visible_transmittance<const K: usize>(source: &Source) {
     source.between(
-        "\n// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken to lie in\n\
+        "\n// What cannot be seen needs no network. Two switches, each by itself; 0 turns one off. Colours are taken \
+            to lie in\n\
          // [0, 1].\n",
     );
     let about = "Pixels with b0 up to this are faint: no answer changes a channel by more than 1.923e-3, less than \

@@ -329,7 +329,8 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(300))]
         /// Whatever bytes change, there is a valid list or an error, and no panic.
         #[test]
-        fn flipped_bytes_never_panic(flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4), long in any::<bool>()) {
+        fn flipped_bytes_never_panic(flips in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()),
+            1..4), long in any::<bool>()) {
             let list = if long {
                 FragmentList::new(vec![0, 300], vec![2.0; 300], vec![0.5; 300], None).unwrap()
             } else {

@@ -42,7 +42,8 @@ impl Packing {
             _ => "unknown",
         };
         Err(format!(
-            "method {method} ({name}); deep images have none (0), RLE (1), ZIPS (2), ZIP (3) or ZSTD (13): save the file with ZIPS"
+            "method {method} ({name}); deep images have none (0), RLE (1), ZIPS (2), ZIP (3) or ZSTD (13): save the \
+                file with ZIPS"
         ))
     }
 

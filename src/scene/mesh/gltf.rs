@@ -202,8 +202,8 @@ fn document(path: &Path, json: &Value) -> Result<gltf::Document, SceneError> {
             .into_iter()
             .flatten()
         {
-            // The library demands bounds of positions and a buffer view, neither of which the format does. Where there is no
-            // view, none is looked at.
+            // The library demands bounds of positions and a buffer view, neither of which the format does. Where there
+            // is no view, none is looked at.
             if let Some(accessor) = accessor.as_object_mut() {
                 if has_views && accessor.get("sparse").is_none() {
                     accessor.entry("bufferView").or_insert_with(|| 0.into());
@@ -505,7 +505,8 @@ impl File<'_> {
         if extension(json, "KHR_draco_mesh_compression").is_some()
             && positions.as_ref().is_none_or(|a| !self.has_view(a))
         {
-            let reason = "its geometry is compressed (KHR_draco_mesh_compression), which is not supported: export the mesh without it";
+            let reason = "its geometry is compressed (KHR_draco_mesh_compression), which is not supported: export the \
+                mesh without it";
             return Err(self.wrong(&place, reason));
         }
         let name = primitive.material().name().map(str::to_owned);
@@ -643,14 +644,16 @@ impl File<'_> {
                     .and_then(Value::as_f64)
                     .map_or(String::new(), |f| format!(" {f}"));
                 let remedy = format!(
-                    "alpha stays {}; set it in the scene file: materials.'{shown}'.alpha = 0.3, or alpha of the whole mesh",
+                    "alpha stays {}; set it in the scene file: materials.'{shown}'.alpha = 0.3, or alpha of the whole \
+                        mesh",
                     if mode == AlphaMode::Opaque { 1.0 } else { part.rgba[3] }
                 );
                 self.leave_out(format!("{glass}{factor} of material '{shown}'"), 1, &remedy);
             }
         }
         if mode == AlphaMode::Opaque && part.rgba[3] < 1.0 && !alpha_given {
-            let remedy = "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the scene file";
+            let remedy = "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the \
+                scene file";
             self.leave_out(format!("alpha {} of material '{shown}'", part.rgba[3]), 1, remedy);
         }
         if mode == AlphaMode::Opaque {

@@ -214,7 +214,8 @@ fn library(
             _ if OF_LIGHTING.contains(&word) => {
                 if word == "illum" && ["4", "6", "7", "9"].contains(&rest) {
                     let remedy = format!(
-                        "it means glass, and opacity is that of d and Tr alone; set materials.'{name}'.alpha in the scene file if it is not meant"
+                        "it means glass, and opacity is that of d and Tr alone; set materials.'{name}'.alpha in the \
+                            scene file if it is not meant"
                     );
                     source.leave_out(format!("illum {rest} of material '{name}'"), &remedy);
                 }
@@ -561,7 +562,8 @@ pub(super) fn read(path: &Path, scene: &dyn Overrides, left_out: &mut Vec<LeftOu
         if known.is_none() && !given {
             if let Some((line, tried)) = missing.first() {
                 let reason = format!(
-                    "the material library is not there; looked for {}; put it there, or give the mesh both color and alpha in the scene file",
+                    "the material library is not there; looked for {}; put it there, or give the mesh both color and \
+                        alpha in the scene file",
                     listed(tried)
                 );
                 return Err(source.wrong(*line, reason));
@@ -570,7 +572,8 @@ pub(super) fn read(path: &Path, scene: &dyn Overrides, left_out: &mut Vec<LeftOu
                 let mut names: Vec<&str> = materials.keys().map(String::as_str).collect();
                 names.sort_unstable();
                 let reason = format!(
-                    "there is no material '{}'; {} {}; correct the name, or give the mesh both color and alpha in the scene file",
+                    "there is no material '{}'; {} {}; correct the name, or give the mesh both color and alpha in the \
+                        scene file",
                     name.as_deref().unwrap_or(""),
                     if found.is_empty() {
                         "no mtllib line names a library".to_owned()
@@ -654,7 +657,8 @@ fn part(
     if textures.color.is_some() || textures.opacity.is_some() {
         if group.bare {
             if textures.opacity.is_some() {
-                let reason = "its faces have no texture coordinates (vt), which map_d needs; add them, or set alpha in the scene file";
+                let reason = "its faces have no texture coordinates (vt), which map_d needs; add them, or set alpha in \
+                    the scene file";
                 return Err(SceneError::file_content(
                     &material.library,
                     &format!("material '{name}'"),

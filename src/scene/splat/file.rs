@@ -331,7 +331,8 @@ fn ply_header(reader: &mut Reader<'_, impl BufRead>) -> Result<PlyHeader, SceneE
             }
             ["element", "vertex", n] if count.is_none() && others.is_empty() => count = Some(whole(n)?),
             ["element", "chunk", _] => {
-                let reason = "a PLY file with compressed splats; they are not supported: export it as .splat, .spz or plain .ply";
+                let reason = "a PLY file with compressed splats; they are not supported: export it as .splat, .spz or \
+                    plain .ply";
                 return Err(reader.wrong(&place, reason));
             }
             ["element", name, n] if count.is_some() => others.push((name.to_owned(), whole(n)?)),
@@ -392,7 +393,8 @@ fn ply_places(
         place(name).ok_or_else(|| {
             let names: Vec<&str> = header.properties.iter().map(|(n, _)| n.as_str()).take(12).collect();
             let reason = format!(
-                "there is no property '{name}', which splats have (x y z f_dc_0.. opacity scale_0.. rot_0..); the file has {}; \
+                "there is no property '{name}', which splats have (x y z f_dc_0.. opacity scale_0.. rot_0..); the file \
+                    has {}; \
                  a mesh or a point cloud is read as .obj, .gltf or .glb",
                 names.join(" ")
             );
@@ -588,7 +590,8 @@ fn spz(mut reader: Reader<'_, impl BufRead>) -> Result<Splats, SceneError> {
         );
     }
     if flags & 1 != 0 {
-        let remedy = "the pixel's extent is added without making the splat fainter; train without antialiasing for the same picture";
+        let remedy = "the pixel's extent is added without making the splat fainter; train without antialiasing for the \
+            same picture";
         note(
             &mut left_out,
             LeftOut::new("the flag 'trained with antialiasing'", &file, 1, remedy),

@@ -6,7 +6,8 @@ use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use std::path::Path;
 
-/// Methods beside a network on a rendered scene: a table, pictures, a contact sheet, numbers; and the exact method is exact.
+/// Methods beside a network on a rendered scene: a table, pictures, a contact sheet, numbers; and the exact method is
+/// exact.
 #[test]
 fn evaluate_compares_methods() {
     let at = Workplace::new();
