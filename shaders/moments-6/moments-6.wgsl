@@ -21,7 +21,7 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, 0.03 > alpha);
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
@@ -29,7 +29,7 @@ fn nmt_log_ratio(a: f32, b: f32) -> f32 {
     let s = (a - b) / (a + b);
     let q = s * s;
     return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))),
-        abs(s) < 0.2);
+        0.2 > abs(s));
 }
 
 // Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the
@@ -133,8 +133,8 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     let noise1 = moment_noise * (0.12 * sqrt(n));
     let per_n = 1.0 / n;
     let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
-    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), (farthest - nearest)
-        / nearest < 0.01);
+    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01 > (farthest
+        - nearest) / nearest);
     let further = noise_growth * 0.87;
     let noise2 = noise1 * further;
     let noise3 = noise2 * further;
@@ -308,8 +308,8 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                 let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
-                    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest),
-                        (farthest - nearest) / nearest < 0.01);
+                    let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01
+                        > (farthest - nearest) / nearest);
                     let further = noise_growth * 0.87;
                     let noise2 = noise1 * further;
                     let noise3 = noise2 * further;
@@ -408,10 +408,10 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     // The quartic.
     let w1 = m[0] - m[2];
     let below = w1 - x * (1.0 - m[1]);
-    let inner = (m[1] - m[3] - x * w1) / select(below, 1e-30, abs(below) < 1e-30);
+    let inner = (m[1] - m[3] - x * w1) / select(below, 1e-30, 1e-30 > abs(below));
     let outer = max(r1, -1.0);
     let inside = select(outer, inner, inner >= -end);
-    let r = select(outer, inside, inside < x);
+    let r = select(outer, inside, x > inside);
     let gap = x - r;
     let per_value = 1.0 / max((end + x) * (gap * gap), 1e-30);
     let end_gap = end - r;
@@ -426,7 +426,7 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     let lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     let share2 = (value + lost) * per_value;
     let share = min(share1, share2) * 1.00001;
-    let behind = select(1.0, select(1.0, max(share, 0.0), share < 1.0), ahead > 0.0);
+    let behind = select(1.0, select(1.0, max(share, 0.0), 1.0 > share), ahead > 0.0);
     let least_depth = others * (1.0 - behind) - ((n + 4.0) * NMT_ROUNDING * b0 + 1e-5);
     return exp(-least_depth) * min(others * behind + absorbance, n - 2.0);
 }

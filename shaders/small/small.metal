@@ -61,7 +61,7 @@ float nmt_absorbance(
     float alpha
 ) {
     float faint = alpha * (1.0 + (alpha * (0.5 + (alpha * (0.33333334 + (alpha * (0.25 + (alpha * 0.2))))))));
-    return (alpha < 0.03) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
+    return (0.03 > alpha) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
 }
 
 float nmt_log_ratio(
@@ -70,7 +70,7 @@ float nmt_log_ratio(
 ) {
     float s = (a - b) / (a + b);
     float q = s * s;
-    return (metal::abs(s) < 0.2) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
+    return (0.2 > metal::abs(s)) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
 }
 
 float nmt_moment_depth(
@@ -183,7 +183,7 @@ type_2 nmt_recentred(
     float per_n = 1.0 / n;
     float _e54 = nmt_shrink_to_prior(_e31.inner[0], 0.0, noise1, 0.22 + (0.7 * per_n));
     float _e60 = nmt_place_in_thin(v_2, nearest_1, farthest_1);
-    float x_2 = (((farthest_1 - nearest_1) / nearest_1) < 0.01) ? _e60 : metal::clamp((z_2 - c_1) * per_h_1, -1.0, 1.0);
+    float x_2 = (0.01 > ((farthest_1 - nearest_1) / nearest_1)) ? _e60 : metal::clamp((z_2 - c_1) * per_h_1, -1.0, 1.0);
     float further = noise_growth * 0.87;
     float noise2 = noise1 * further;
     float noise3 = noise2 * further;
@@ -275,7 +275,7 @@ float nmt_fragment_transmittance(
                 front_1 = others_1 * metal::clamp(0.5 - (0.5 * _e61), 0.0, 1.0);
                 if (n_1 != 3.0) {
                     float _e77 = nmt_place_in_thin(v_3, nearest_2, farthest_2);
-                    float x_3 = (((farthest_2 - nearest_2) / nearest_2) < 0.01) ? _e77 : metal::clamp((z_3 - c_2) * per_h_2, -1.0, 1.0);
+                    float x_3 = (0.01 > ((farthest_2 - nearest_2) / nearest_2)) ? _e77 : metal::clamp((z_3 - c_2) * per_h_2, -1.0, 1.0);
                     float further_1 = noise_growth_1 * 0.87;
                     float noise2_1 = noise1_1 * further_1;
                     float noise3_1 = noise2_1 * further_1;
@@ -347,10 +347,10 @@ float nmt_hidden_weight(
     float share1 = (((_e28.inner[1] - ((2.0 * r1) * _e28.inner[0])) + (r1 * r1)) + (unsure * (growth1 * growth1))) / metal::max(gap1 * gap1, 0.000000000000000000000000000001);
     float w1 = _e28.inner[0] - _e28.inner[2];
     float below = w1 - (x_4 * (1.0 - _e28.inner[1]));
-    float inner_1 = ((_e28.inner[1] - _e28.inner[3]) - (x_4 * w1)) / ((metal::abs(below) < 0.000000000000000000000000000001) ? 0.000000000000000000000000000001 : below);
+    float inner_1 = ((_e28.inner[1] - _e28.inner[3]) - (x_4 * w1)) / ((0.000000000000000000000000000001 > metal::abs(below)) ? 0.000000000000000000000000000001 : below);
     float outer = metal::max(r1, -1.0);
     float inside = (inner_1 >= -(end)) ? inner_1 : outer;
-    float r = (inside < x_4) ? inside : outer;
+    float r = (x_4 > inside) ? inside : outer;
     float gap = x_4 - r;
     float per_value = 1.0 / metal::max((end + x_4) * (gap * gap), 0.000000000000000000000000000001);
     float end_gap = end - r;
@@ -364,7 +364,7 @@ float nmt_hidden_weight(
     float lost = ((unsure * (end + noise_growth_2)) * (growth2 * growth2)) * (1.0 + (gamma * (metal::abs(x_4) + noise_growth_2)));
     float share2 = (value_1 + lost) * per_value;
     float share = metal::min(share1, share2) * 1.00001;
-    float behind_1 = (ahead > 0.0) ? ((share < 1.0) ? metal::max(share, 0.0) : 1.0) : 1.0;
+    float behind_1 = (ahead > 0.0) ? ((1.0 > share) ? metal::max(share, 0.0) : 1.0) : 1.0;
     float least_depth = (others_2 * (1.0 - behind_1)) - ((((n_2 + 4.0) * NMT_ROUNDING) * b0_3) + 0.00001);
     return metal::exp(-(least_depth)) * metal::min((others_2 * behind_1) + absorbance_4, n_2 - 2.0);
 }

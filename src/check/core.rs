@@ -245,8 +245,8 @@ fn numbers(format: Format, text: &str, language: CoreLanguage, set: CoreSet, row
             Err(missing) => Ok(Err(missing)),
         }
     };
-    // The deviation of the law's logistic distribution.
-    let control = text.replace("1.702", "1.5");
+    // The slope of the normal law's log-odds.
+    let control = text.replace("1.5976", "1.2");
     let (error, wrong) = match (measure(text), measure(&control)) {
         (Ok(Ok(error)), Ok(Ok(wrong))) => (error, wrong),
         (Ok(Err(missing)), _) | (_, Ok(Err(missing))) => return Finding::skipped(format, tool, question, missing),

@@ -307,7 +307,7 @@ fn fragments_agree_with_an_independent_program() {
     };
     let folder = tempfile::tempdir().unwrap();
     let list = seen(folder.path(), &splats(), "");
-    assert!(list.len() > 1000);
+    assert!(list.len() > 500, "{}", list.len());
     let npz = folder.path().join("a.npz");
     scene::npz::write(&npz, nmt::numeric::file::Replace::No, &list).unwrap();
     let output = Command::new(python)

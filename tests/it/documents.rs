@@ -179,7 +179,7 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
 fn needs_gpu(words: &[String]) -> bool {
     words.iter().any(|w| w == "--gpu")
         || words.windows(2).any(|w| w[0] == "--device" && w[1] == "gpu")
-        || words[1] == "tiles"
+        || words.get(1).is_some_and(|w| w == "tiles")
 }
 
 /// Runs a command, or checks that what it names is there where it builds or installs.

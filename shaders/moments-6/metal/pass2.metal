@@ -49,7 +49,7 @@ float nmt_absorbance(
     float alpha
 ) {
     float faint = alpha * (1.0 + (alpha * (0.5 + (alpha * (0.33333334 + (alpha * (0.25 + (alpha * 0.2))))))));
-    return (alpha < 0.03) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
+    return (0.03 > alpha) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
 }
 
 float nmt_log_ratio(
@@ -58,7 +58,7 @@ float nmt_log_ratio(
 ) {
     float s = (a - b) / (a + b);
     float q = s * s;
-    return (metal::abs(s) < 0.2) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
+    return (0.2 > metal::abs(s)) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
 }
 
 float nmt_moment_depth(
@@ -214,7 +214,7 @@ float nmt_fragment_transmittance(
                 front = others * metal::clamp(0.5 - (0.5 * _e61), 0.0, 1.0);
                 if (n != 3.0) {
                     float _e77 = nmt_place_in_thin(v_2, nearest_1, farthest_1);
-                    float x_2 = (((farthest_1 - nearest_1) / nearest_1) < 0.01) ? _e77 : metal::clamp((z_2 - c_1) * per_h_1, -1.0, 1.0);
+                    float x_2 = (0.01 > ((farthest_1 - nearest_1) / nearest_1)) ? _e77 : metal::clamp((z_2 - c_1) * per_h_1, -1.0, 1.0);
                     float further = noise_growth * 0.87;
                     float noise2 = noise1 * further;
                     float noise3 = noise2 * further;

@@ -11,7 +11,7 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, 0.03 > alpha);
 }
 
 // ln(a / b), as accurate relative to itself where a is near b as elsewhere.
@@ -19,7 +19,7 @@ fn nmt_log_ratio(a: f32, b: f32) -> f32 {
     let s = (a - b) / (a + b);
     let q = s * s;
     return select(log(a / b), (s + s) * (1.0 + q * (0.33333334 + q * (0.2 + q * (0.14285715 + q * 0.11111111)))),
-        abs(s) < 0.2);
+        0.2 > abs(s));
 }
 
 // Moment depth of view depth v; v0 and v1 are the least and the greatest of the scene. Where a prepass has found the

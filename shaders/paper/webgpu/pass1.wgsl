@@ -11,7 +11,7 @@
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.
 fn nmt_absorbance(alpha: f32) -> f32 {
     let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, alpha < 0.03);
+    return select(-log(max(1.0 - alpha, 4.539993e-5)), faint, 0.03 > alpha);
 }
 
 // Pass 1: what a fragment at window depth w adds to b1..b4; to b0 it adds its absorbance.

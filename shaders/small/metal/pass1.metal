@@ -42,7 +42,7 @@ float nmt_absorbance(
     float alpha
 ) {
     float faint = alpha * (1.0 + (alpha * (0.5 + (alpha * (0.33333334 + (alpha * (0.25 + (alpha * 0.2))))))));
-    return (alpha < 0.03) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
+    return (0.03 > alpha) ? faint : -(metal::log(metal::max(1.0 - alpha, 0.00004539993)));
 }
 
 float nmt_log_ratio(
@@ -51,7 +51,7 @@ float nmt_log_ratio(
 ) {
     float s = (a - b) / (a + b);
     float q = s * s;
-    return (metal::abs(s) < 0.2) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
+    return (0.2 > metal::abs(s)) ? ((s + s) * (1.0 + (q * (0.33333334 + (q * (0.2 + (q * (0.14285715 + (q * 0.11111111))))))))) : metal::log(a / b);
 }
 
 float nmt_moment_depth(
