@@ -300,7 +300,7 @@ mod tests {
         };
         let path = folder.path().join(file_name(set, CoreLanguage::Wgsl));
         let text = std::fs::read_to_string(&path).unwrap();
-        std::fs::write(&path, text.replace("1.702", "1.71")).unwrap();
+        std::fs::write(&path, text.replace("1.5976", "1.61")).unwrap();
         assert!(failed() >= 1);
         std::fs::write(&path, text.replace("4095", "4096").replace("0x3a800000", "0x3a800001")).unwrap();
         assert!(failed() >= 1);
