@@ -1,7 +1,7 @@
 //! Pictures of pixels, and their PNG files.
 
 use super::palette::Rgb;
-use std::io::{Read, Write};
+use std::io::Write;
 
 /// A picture in 8-bit display colours, row by row from the top.
 #[derive(Clone, PartialEq, Eq)]
@@ -122,7 +122,7 @@ impl Raster {
     ///
     /// # Errors
     /// Where it is something else.
-    pub fn read_png(from: impl Read + std::io::BufRead + std::io::Seek) -> std::io::Result<Self> {
+    pub fn read_png(from: impl std::io::BufRead + std::io::Seek) -> std::io::Result<Self> {
         let mut reader = png::Decoder::new(from).read_info().map_err(std::io::Error::other)?;
         let size = reader
             .output_buffer_size()

@@ -30,7 +30,10 @@ impl Matrix {
             .iter()
             .map(|b| f32::from_le_bytes(*b))
             .collect();
-        if tensor.data_type != 1 || rows.checked_mul(columns) != Some(values.len()) || tensor.raw_data.len() % 4 != 0 {
+        if tensor.data_type != 1
+            || rows.checked_mul(columns) != Some(values.len())
+            || !tensor.raw_data.len().is_multiple_of(4)
+        {
             return Err(format!(
                 "tensor '{}' does not hold {rows} x {columns} numbers of f32",
                 tensor.name

@@ -55,12 +55,15 @@ pub struct FeatureSpec {
     /// Features of every fragment of a pixel; see [`Extractor::pixel`].
     pub pixel: fn(&Extractor, Pixel<'_>, &mut [f32]) -> Result<(), DepthError>,
     /// Rows of some fragments of a pixel, for sets that are trained on transmittances; see [`Extractor::sample`].
-    pub sample: Option<fn(&Extractor, Pixel<'_>, usize, &mut Stream, &mut Sampled)>,
+    pub sample: Option<Sampler>,
     /// Whether a dataset holds such rows, drawn pixel by pixel, and not every fragment of its pixels.
     pub is_sampled: bool,
     /// Its shader functions.
     pub shader: ShaderCalls,
 }
+
+/// What draws rows of some fragments of a pixel: at most so many of them, by random numbers of the pixel's own.
+pub type Sampler = fn(&Extractor, Pixel<'_>, usize, &mut Stream, &mut Sampled);
 
 /// What pass 1 keeps of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -17,8 +17,7 @@ use std::time::Instant;
 const TASK: usize = 256;
 
 /// Greatest error of T, whatever the share of the tail, at which the law answers in place of the network: half a
-/// display
-/// step.
+/// display step.
 pub const VISIBLE: f32 = 1.0 / 512.0;
 
 /// Who shares tails out.
@@ -35,8 +34,7 @@ pub enum Tail<'a> {
 /// # Shapes
 /// `out` and `classes`: one for each of the pixels' fragments.
 pub fn run(
-    set: &CoreSet,
-    codes: &Codes,
+    (set, codes): (&CoreSet, &Codes),
     tail: Tail<'_>,
     list: &FragmentList,
     pixels: Range<usize>,

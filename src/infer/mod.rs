@@ -70,8 +70,7 @@ pub fn answers(
             None if extractor.set().spec().core.is_some() => {
                 let (set, codes) = extractor.codes();
                 core::run(
-                    &set,
-                    &codes,
+                    (&set, &codes),
                     core::Tail::Network(&tiled),
                     list,
                     first..end,

@@ -96,8 +96,7 @@ impl Method for Core {
         let pixels = 0..list.pixels();
         let switches = Switches::default();
         run(
-            &self.set,
-            &codes,
+            (&self.set, &codes),
             Tail::Law,
             list,
             pixels,

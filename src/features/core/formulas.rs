@@ -20,7 +20,7 @@ pub fn without<R: Real, const N: usize>(b: [R; N], absorbance: R, z: R) -> [R; N
     let mut term = absorbance;
     std::array::from_fn(|k| {
         let rest = b[k] - term;
-        term = term * z;
+        term *= z;
         rest
     })
 }
@@ -32,13 +32,13 @@ pub fn recentred<R: Real, const N: usize>(b: [R; N], center: R, per_h: R) -> [R;
     // One factor at a time: ∫ z^(k−j) (z − c)^j = ∫ z^(k−j+1) (z − c)^(j−1) − c ∫ z^(k−j) (z − c)^(j−1).
     for pass in 0..N - 1 {
         for k in (pass + 1..N).rev() {
-            m[k] = m[k] - center * m[k - 1];
+            m[k] -= center * m[k - 1];
         }
     }
     let mut scale = per_h;
     for m in &mut m[1..] {
-        *m = *m * scale;
-        scale = scale * per_h;
+        *m *= scale;
+        scale *= per_h;
     }
     m
 }
@@ -80,7 +80,7 @@ pub fn described<R: Real, const N: usize>(m: [R; N]) -> [R; N] {
             let spread = ((q[2] * per_mass - mean * mean) / most).clamp(c(0.0), c(1.0));
             out[first + 1] = if first == 1 { spread } else { spread.sqrt() };
             for k in 0..left - 1 {
-                q[k] = q[k] - q[k + 2];
+                q[k] -= q[k + 2];
             }
         }
         first += 2;
