@@ -76,7 +76,7 @@ pub struct Evaluate {
     /// scenes that are rendered, not for lists.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     frames: Option<u32>,
-    /// Angle of the camera between two frames [degrees].
+    /// Angle of the camera between two frames, in degrees.
     #[arg(long, value_name = "D", requires = "frames", default_value_t = 0.6, value_parser = frames::turn,
         allow_negative_numbers = true)]
     degrees_per_frame: f64,

@@ -123,7 +123,7 @@ fn texel(map: &FragmentList, x: f64, y: f64) -> Option<usize> {
     inside.then_some(y as usize * width as usize + x as usize)
 }
 
-/// Weight of a texel under the filter, at a distance from its middle [texels].
+/// Weight of a texel under the filter, at a distance from its middle \[texels\].
 fn gaussian(distance: f64) -> f64 {
     if distance.abs() > 4.5 {
         return 0.0;
