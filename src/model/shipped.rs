@@ -39,7 +39,7 @@ pub fn named(name: &str) -> Option<Mlp> {
 /// [`ModelError`]; for a word that is neither, it lists the names.
 pub fn open(model: &Path) -> Result<Mlp, ModelError> {
     let word = model.to_str().filter(|text| !text.contains(['/', '\\', '.']));
-    match word.filter(|_| !model.exists()) {
+    match word.filter(|_| !model.is_file()) {
         None => file::load(model),
         Some(name) => named(name).ok_or_else(|| ModelError::Unknown {
             name: name.to_owned(),

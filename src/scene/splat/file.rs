@@ -159,7 +159,7 @@ impl<'a> Collected<'a> {
         const FARTHEST: f64 = 1e15;
         let finite = position.iter().chain(&scale).all(|x| x.abs() <= FARTHEST)
             && rotation.iter().all(|x| x.abs() <= FARTHEST)
-            && rgba.iter().all(|x| x.is_finite());
+            && rgba.iter().all(|x| x.abs() <= FARTHEST);
         if !finite {
             self.not_finite += 1;
             return Ok(());
