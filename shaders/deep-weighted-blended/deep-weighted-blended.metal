@@ -20,9 +20,6 @@
 
 using metal::uint;
 
-struct type_1 {
-    float inner[3];
-};
 struct type_3 {
     metal::float4x4 inner[3];
 };
@@ -37,7 +34,7 @@ constant type_5 NMT_W2 = type_5 {{metal::float4x4(metal::float4(0.014763311, 1.3
 constant type_6 NMT_W3 = type_6 {{metal::float4(-0.37347975, 0.78402555, 0.64845484, -0.9254207), metal::float4(0.35157916, 1.4549395, -0.13997157, -0.12255525)}};
 constant float NMT_B3 = 0.052733794;
 
-type_1 nmt_features(
+metal::float3 nmt_features(
     float view_z,
     float v_min,
     float v_max,
@@ -45,13 +42,13 @@ type_1 nmt_features(
     float n
 ) {
     float depth = (v_max > v_min) ? metal::clamp((view_z - v_min) / metal::max(v_max - v_min, 0.000000000000000000000000000001), 0.0, 1.0) : 0.0;
-    return type_1 {{depth, alpha_sum, n}};
+    return metal::float3(depth, alpha_sum, n);
 }
 
 float nmt_transmittance(
-    type_1 f
+    metal::float3 f
 ) {
-    metal::float4 h0_0 = metal::float4(f.inner[0], f.inner[1], f.inner[2], 1.0);
+    metal::float4 h0_0 = metal::float4(f, 1.0);
     metal::float4 h1_0 = metal::max(metal::float4x4(metal::float4(1.657024, 3.360892, 0.1313911, -0.5419495), metal::float4(-0.18385865, 0.25869948, -0.16814557, -0.17278436), metal::float4(0.0012825805, 0.11082688, -0.6666102, -0.67785805), metal::float4(-0.25357166, -0.44708672, 0.0, 0.0)) * h0_0, metal::float4(0.0));
     metal::float4 h1_1 = metal::max(metal::float4x4(metal::float4(-0.07264159, 1.3070917, -2.9824917, -0.40802893), metal::float4(-0.32245347, -0.25351995, 0.24740538, -0.19207934), metal::float4(-0.50113267, 0.34644765, 0.6330341, 0.0002550998), metal::float4(0.0, 0.92429936, -0.40088236, 0.0)) * h0_0, metal::float4(0.0));
     metal::float4 h1_2 = metal::max(metal::float4x4(metal::float4(-0.40944138, -0.074698396, 0.0, 0.0), metal::float4(-0.47886637, -0.017225184, 0.0, 0.0), metal::float4(-0.4349005, -0.2579935, 0.0, 0.0), metal::float4(0.0, 0.60113144, 0.0, 0.0)) * h0_0, metal::float4(0.0)) + metal::float4(0.0, 0.0, 1.0, 0.0);

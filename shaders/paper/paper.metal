@@ -21,9 +21,6 @@
 
 using metal::uint;
 
-struct type_2 {
-    float inner[7];
-};
 struct type_4 {
     metal::float4x4 inner[16];
 };
@@ -69,7 +66,7 @@ metal::float4 nmt_moments(
     return metal::float4(b1, b2, b3, b4);
 }
 
-type_2 nmt_features(
+metal::float2x4 nmt_features(
     float w_1,
     float w_min,
     float w_max,
@@ -80,14 +77,14 @@ type_2 nmt_features(
     float _e7 = nmt_expm1(w_1 - w_min);
     float _e9 = nmt_expm1(w_max - w_min);
     float d = (w_max > w_min) ? (_e7 / metal::max(_e9, 0.000000000000000000000000000001)) : 0.0;
-    return type_2 {{d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w}};
+    return metal::float2x4(metal::float4(d, n, b0, b1234.x), metal::float4(b1234.y, b1234.z, b1234.w, 0.0));
 }
 
 float nmt_transmittance(
-    type_2 f
+    metal::float2x4 f
 ) {
-    metal::float4 h0_0 = metal::float4(f.inner[0], f.inner[1], f.inner[2], f.inner[3]);
-    metal::float4 h0_1 = metal::float4(f.inner[4], f.inner[5], f.inner[6], 1.0);
+    metal::float4 h0_0 = f[0];
+    metal::float4 h0_1 = metal::float4(f[1].xyz, 1.0);
     metal::float4 h1_0 = metal::max((metal::float4x4(metal::float4(-0.56261206, -0.081534505, 0.86792815, -3.4482932), metal::float4(0.031147113, 0.27537444, 0.30065098, 0.15209784), metal::float4(0.060126178, 0.29955044, 0.30972698, -0.2530429), metal::float4(0.0937746, -0.041752703, 0.37482864, 0.3730254)) * h0_0) + (metal::float4x4(metal::float4(-0.2008841, -0.6857078, 0.13445434, -0.18970652), metal::float4(0.17733343, 0.094713554, -0.3170063, 0.28719416), metal::float4(0.48911983, -0.23789321, -0.17487541, -0.23815268), metal::float4(-0.09753168, 0.016576627, -0.08764214, 0.028631438)) * h0_1), metal::float4(0.0));
     metal::float4 h1_1 = metal::max((metal::float4x4(metal::float4(0.48364165, 0.22709142, 1.9760454, 0.23709649), metal::float4(0.28276798, -0.30725434, 0.20472161, 0.15256429), metal::float4(0.24615212, -0.12917116, 0.10248366, -0.28710803), metal::float4(0.1707121, -0.36197695, -0.1687728, -0.13203627)) * h0_0) + (metal::float4x4(metal::float4(-0.6067922, 0.26647654, -0.02500634, 0.43397835), metal::float4(0.03986926, 0.19262528, -0.3524807, -0.12221677), metal::float4(0.5352297, -0.118321545, -0.28360066, 0.36582744), metal::float4(-0.017938795, 0.0, -0.0426102, -0.08335628)) * h0_1), metal::float4(0.0));
     metal::float4 h1_2 = metal::max((metal::float4x4(metal::float4(-0.2363911, -0.90211654, 0.1350015, -0.2968562), metal::float4(-0.3078159, 0.24983858, 0.18404892, 0.049047947), metal::float4(-0.38623205, -0.019589098, -0.17973164, -0.12997437), metal::float4(-0.050442055, 0.08614008, 0.029095931, 0.5017569)) * h0_0) + (metal::float4x4(metal::float4(-0.16036996, -0.35064295, 0.43490127, -0.11450475), metal::float4(-0.19084297, 0.10945594, -0.57625324, -0.36887074), metal::float4(0.15492678, 0.5036909, -0.3212962, -0.108860336), metal::float4(0.0, 0.15278998, -0.14877437, 0.5713367)) * h0_1), metal::float4(0.0));
@@ -119,8 +116,7 @@ float nmt_pass2(
     metal::float4 sums1,
     metal::float4 range
 ) {
-    metal::float4 b = metal::float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    type_2 _e14 = nmt_features(w_3, -(range.x), range.y, sums1.y, sums0.x, b);
+    metal::float2x4 _e14 = nmt_features(w_3, -(range.x), range.y, sums1.y, sums0.x, metal::float4(sums0.y, sums0.z, sums0.w, sums1.x));
     float _e15 = nmt_transmittance(_e14);
     return _e15;
 }
@@ -131,7 +127,7 @@ metal::float4 nmt_resolve(
 ) {
     float behind = metal::exp(-(sums0_1.x));
     float scale = (weighted.w > 0.0) ? ((1.0 - behind) / metal::max(weighted.w, 0.0000000000000000000000000000000000001)) : 0.0;
-    return metal::float4(scale * weighted.xyz, behind);
+    return metal::float4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 #endif
