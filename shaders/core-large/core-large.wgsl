@@ -21,7 +21,7 @@
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
 fn nmt_features(x: f32, count: f32, ln_b0: f32, tail: vec4<f32>) -> mat2x4<f32> {
-    return mat2x4<f32>(vec4<f32>(x, count, ln_b0, tail.x), vec4<f32>(tail.y, tail.z, tail.w, 0.0));
+    return mat2x4<f32>(vec4<f32>(x, count, ln_b0, tail.x), vec4<f32>(tail.yzw, 0.0));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 32>(

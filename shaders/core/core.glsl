@@ -29,7 +29,7 @@ precision highp int;
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
 mat2x4 nmt_features(float x, float count, float ln_b0, vec4 tail) {
-    return mat2x4(vec4(x, count, ln_b0, tail.x), vec4(tail.y, tail.z, tail.w, 0.0));
+    return mat2x4(vec4(x, count, ln_b0, tail.x), vec4(tail.yzw, 0.0));
 }
 
 const mat4 NMT_W1[16] = mat4[16](

@@ -25,7 +25,7 @@
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
 float2x4 nmt_features(float x, float count, float ln_b0, float4 tail) {
-    return float2x4(float4(x, count, ln_b0, tail.x), float4(tail.y, tail.z, tail.w, 0.0));
+    return float2x4(float4(x, count, ln_b0, tail.x), float4(tail.yzw, 0.0));
 }
 
 static const float4x4 NMT_W1[16] = {

@@ -482,8 +482,8 @@ NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float2x4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
     NmtSums result;
-    result.sums0 = float4(absorbance, b[0].x, b[0].y, b[0].z);
-    result.sums1 = float4(b[0].w, b[1].x, b[1].y, 1.0);
+    result.sums0 = float4(absorbance, b[0].xyz);
+    result.sums1 = float4(b[0].w, b[1].xy, 1.0);
     result.range = float4(-v, v, 0.0, 0.0);
     return result;
 }
@@ -493,16 +493,16 @@ NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
 float nmt_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
     float nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x, float2x4(float4(sums0.y,
-        sums0.z, sums0.w, sums1.x), float4(sums1.y, sums1.z, 0.0, 0.0)));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
+        float2x4(float4(sums0.yzw, sums1.x), float4(sums1.yz, 0.0, 0.0)));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
 float nmt_visible_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
     float nearest = -range.x;
     return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x, float2x4(float4(sums0.y,
-        sums0.z, sums0.w, sums1.x), float4(sums1.y, sums1.z, 0.0, 0.0)));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
+        float2x4(float4(sums0.yzw, sums1.x), float4(sums1.yz, 0.0, 0.0)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -478,8 +478,7 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0].x, b[0].y, b[0].z), vec4<f32>(b[0].w, b[1].x, b[1].y, 1.0),
-        vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b[0].xyz), vec4<f32>(b[0].w, b[1].xy, 1.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
 // Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
@@ -488,7 +487,7 @@ fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4
     let nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
         nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
-        mat2x4<f32>(vec4<f32>(sums0.y, sums0.z, sums0.w, sums1.x), vec4<f32>(sums1.y, sums1.z, 0.0, 0.0)));
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
@@ -497,7 +496,7 @@ fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sum
     let nearest = -range.x;
     return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
         nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
-        mat2x4<f32>(vec4<f32>(sums0.y, sums0.z, sums0.w, sums1.x), vec4<f32>(sums1.y, sums1.z, 0.0, 0.0)));
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -41,7 +41,7 @@ float4 nmt_moments(float w, float absorbance) {
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
 float2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, float4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    return float2x4(float4(d, n, b0, b1234.x), float4(b1234.y, b1234.z, b1234.w, 0.0));
+    return float2x4(float4(d, n, b0, b1234.x), float4(b1234.yzw, 0.0));
 }
 
 static const float4x4 NMT_W1[16] = {
@@ -145,7 +145,7 @@ NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float4 b = nmt_moments(w, absorbance);
     NmtSums result;
-    result.sums0 = float4(absorbance, b.x, b.y, b.z);
+    result.sums0 = float4(absorbance, b.xyz);
     result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
     result.range = float4(-w, w, 0.0, 0.0);
     return result;
@@ -154,8 +154,7 @@ NmtSums nmt_pass1(float w, float alpha) {
 // Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
 // color, alpha * T).
 float nmt_pass2(float w, float4 sums0, float4 sums1, float4 range) {
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, float4(sums0.y, sums0.z, sums0.w,
-        sums1.x)));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, float4(sums0.yzw, sums1.x)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

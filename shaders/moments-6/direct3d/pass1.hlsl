@@ -58,8 +58,8 @@ NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float2x4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
     NmtSums result;
-    result.sums0 = float4(absorbance, b[0].x, b[0].y, b[0].z);
-    result.sums1 = float4(b[0].w, b[1].x, b[1].y, 1.0);
+    result.sums0 = float4(absorbance, b[0].xyz);
+    result.sums1 = float4(b[0].w, b[1].xy, 1.0);
     result.range = float4(-v, v, 0.0, 0.0);
     return result;
 }

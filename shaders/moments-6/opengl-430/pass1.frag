@@ -58,7 +58,7 @@ struct NmtSums {
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     mat2x4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4(absorbance, b[0].x, b[0].y, b[0].z), vec4(b[0].w, b[1].x, b[1].y, 1.0), vec4(-v, v, 0.0, 0.0));
+    return NmtSums(vec4(absorbance, b[0].xyz), vec4(b[0].w, b[1].xy, 1.0), vec4(-v, v, 0.0, 0.0));
 }
 
 // Distance along the view direction.

@@ -56,8 +56,7 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0].x, b[0].y, b[0].z), vec4<f32>(b[0].w, b[1].x, b[1].y, 1.0),
-        vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b[0].xyz), vec4<f32>(b[0].w, b[1].xy, 1.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
 struct Frame {

@@ -284,7 +284,7 @@ fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4
     let nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
         nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
-        mat2x4<f32>(vec4<f32>(sums0.y, sums0.z, sums0.w, sums1.x), vec4<f32>(sums1.y, sums1.z, 0.0, 0.0)));
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 struct Frame {

@@ -40,7 +40,7 @@ NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float4 b = nmt_moments(w, absorbance);
     NmtSums result;
-    result.sums0 = float4(absorbance, b.x, b.y, b.z);
+    result.sums0 = float4(absorbance, b.xyz);
     result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
     result.range = float4(-w, w, 0.0, 0.0);
     return result;

@@ -22,7 +22,7 @@ float nmt_expm1(float x) {
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
 mat2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    return mat2x4(vec4(d, n, b0, b1234.x), vec4(b1234.y, b1234.z, b1234.w, 0.0));
+    return mat2x4(vec4(d, n, b0, b1234.x), vec4(b1234.yzw, 0.0));
 }
 
 const mat4 NMT_W1[16] = mat4[16](
@@ -114,8 +114,7 @@ float nmt_transmittance(mat2x4 f) {
 // Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
 // color, alpha * T).
 float nmt_pass2(float w, vec4 sums0, vec4 sums1, vec4 range) {
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4(sums0.y, sums0.z, sums0.w,
-        sums1.x)));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4(sums0.yzw, sums1.x)));
 }
 
 in vec4 color;

@@ -56,7 +56,7 @@ NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
     NmtSums result;
-    result.sums0 = float4(absorbance, b.x, b.y, b.z);
+    result.sums0 = float4(absorbance, b.xyz);
     result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
     result.range = float4(-v, v, 0.0, 0.0);
     return result;

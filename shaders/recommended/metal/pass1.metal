@@ -81,7 +81,7 @@ NmtSums nmt_pass1(
     float _e4 = nmt_absorbance(alpha_1);
     float _e5 = nmt_moment_depth(v_1, v0_1, v1_1);
     metal::float4 _e6 = nmt_moments(_e5, _e4);
-    return NmtSums {metal::float4(_e4, _e6.x, _e6.y, _e6.z), metal::float4(_e6.w, 1.0, 0.0, 0.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
+    return NmtSums {metal::float4(_e4, _e6.xyz), metal::float4(_e6.w, 1.0, 0.0, 0.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
 }
 
 struct pass1_Input {

@@ -242,8 +242,8 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
 float nmt_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
     float nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.y, sums0.z,
-        sums0.w, sums1.x));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.yzw,
+        sums1.x));
 }
 
 layout(location = 0) in float v;

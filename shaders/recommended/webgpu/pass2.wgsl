@@ -241,8 +241,8 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
 fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
     let nearest = -range.x;
     return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
-        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4<f32>(sums0.y,
-        sums0.z, sums0.w, sums1.x));
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4<f32>(sums0.yzw,
+        sums1.x));
 }
 
 struct Frame {

@@ -59,7 +59,7 @@ struct NmtSums {
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     vec4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4(absorbance, b.x, b.y, b.z), vec4(b.w, 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
+    return NmtSums(vec4(absorbance, b.xyz), vec4(b.w, 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
 }
 
 // Distance along the view direction.

@@ -54,7 +54,7 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b.x, b.y, b.z), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b.xyz), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
 struct Frame {
