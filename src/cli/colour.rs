@@ -84,9 +84,7 @@ impl ColourConfig {
             }
         }
         if dataset.rows_per_pixel != 1 || dataset.refresh != 0.0 {
-            bail!(
-                "dataset: a network of colours has one row a pixel and a fixed dataset; set rows_per_pixel = 1, refresh = 0"
-            );
+            bail!("dataset: a network of colours has one row a pixel, all fixed; set rows_per_pixel = 1, refresh = 0");
         }
         Ok(())
     }

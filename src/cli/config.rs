@@ -117,8 +117,8 @@ impl Config {
         let whole = whole(path)?;
         if let Some(set) = colour_set(&whole) {
             bail!(
-                "{}: dataset.features = '{}' is a network that answers with a pixel's colour; 'nmt train' trains it, and \
-                    no other command takes it",
+                "{}: dataset.features = '{}' is a network that answers with a pixel's colour; 'nmt train' trains it, \
+                    and no other command takes it",
                 path.display(),
                 set.name()
             );

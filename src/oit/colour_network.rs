@@ -80,9 +80,9 @@ impl Method for ColourMethod {
         self.name.clone()
     }
 
-    /// One pass that keeps the two nearest under an interlock, and sums: b0 and n, and of the two nearest depth, opacity
-    /// and colour. With the accumulated colour DFA has the 352 bits that NMT24 Sec. 4 states for it; STAR-NT's layers are
-    /// counted as two colours of 8 bits a channel and two depths.
+    /// One pass that keeps the two nearest under an interlock, and sums: b0 and n, and of the two nearest depth,
+    /// opacity and colour. With the accumulated colour DFA has the 352 bits that NMT24 Sec. 4 states for it; STAR-NT's
+    /// layers are counted as two colours of 8 bits a channel and two depths.
     fn capabilities(&self) -> Capabilities {
         Capabilities {
             bits_per_pixel: Some(match self.network.set() {

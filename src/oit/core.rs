@@ -18,8 +18,8 @@ pub const ENTRY: Entry = Entry {
     build,
 };
 
-/// A method that keeps single fragments by a chain of atomics besides the sums of all others and their number. Slots are
-/// read four at a time, so that a buffer holds a multiple of four.
+/// A method that keeps single fragments by a chain of atomics besides the sums of all others and their number. Slots
+/// are read four at a time, so that a buffer holds a multiple of four.
 pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
     let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
     Capabilities {

@@ -83,9 +83,9 @@ fn said(capabilities: Capabilities) -> Bound {
 }
 
 /// Memory, draws, atomics and blending of every method that the reference pipeline draws, shipped networks among them,
-/// are what its passes bind, and nothing else is asked for. Methods of one pass, which blend colours and what is left of
-/// the background, are the exception: the pipeline draws them as all others, in two passes, and their numbers are those
-/// of their sources. Control: a method that says one number, a draw or a need more or less is found.
+/// are what its passes bind, and nothing else is asked for. Methods of one pass, which blend colours and what is left
+/// of the background, are the exception: the pipeline draws them as all others, in two passes, and their numbers are
+/// those of their sources. Control: a method that says one number, a draw or a need more or less is found.
 #[test]
 fn capabilities_are_what_passes_bind() {
     let mut methods: Vec<(Capabilities, MethodShader)> = Vec::new();

@@ -37,7 +37,8 @@ pub struct AdamMoments {
 
 /// A network being fitted. Parameters are flat: layer by layer, weights `[in][out]`, then biases.
 pub trait Optimiser: Send {
-    /// One step of Adam on the weighted mean squared error of a batch over its rows and outputs; the error is of the weights before the step.
+    /// One step of Adam on the weighted mean squared error of a batch over its rows and outputs; the error is of the
+    /// weights before the step.
     fn step(&mut self, batch: Batch<'_>, learning_rate: f64) -> f64;
 
     /// Weighted mean squared error of a batch and its gradient.
@@ -254,9 +255,9 @@ mod tests {
         }
     }
 
-    /// Three outputs: the kernel at both levels, its scalar twin and burn's autodiff agree to 1e-5 of each layer's largest
-    /// gradient, with hidden layers of any size and without, and the scalar twin with central differences of its own
-    /// error to 2e-3. Control: another batch's gradient is further off.
+    /// Three outputs: the kernel at both levels, its scalar twin and burn's autodiff agree to 1e-5 of each layer's
+    /// largest gradient, with hidden layers of any size and without, and the scalar twin with central differences of
+    /// its own error to 2e-3. Control: another batch's gradient is further off.
     #[test]
     fn opinions_on_three_outputs() {
         for (inputs, hidden) in [(10, &[32, 16][..]), (5, &[7, 3]), (7, &[32, 16]), (4, &[])] {

@@ -147,16 +147,26 @@ fn networks_of_colours_are_trained_and_used() {
     let (code, text) = evaluate("star-nt:s.json", "a");
     assert!(code == Some(0) && text.contains("star-nt:s.json"), "{text}");
     let (code, text) = evaluate("dfa:s.json", "b");
-    assert!(code == Some(2) && text.contains("a network of star-nt, not of dfa"), "{text}");
+    assert!(
+        code == Some(2) && text.contains("a network of star-nt, not of dfa"),
+        "{text}"
+    );
     for (arguments, part) in [
         (&["run", "s.toml"][..], "'nmt train' trains it"),
-        (&["train", "s.toml", "--out", "t.json", "--resume"], "leave out --dataset and --resume"),
+        (
+            &["train", "s.toml", "--out", "t.json", "--resume"],
+            "leave out --dataset and --resume",
+        ),
         (&["export", "s.json", "--out", "e"], "dfa:MODEL.json"),
     ] {
         let (code, text) = run(arguments);
         assert!(code == Some(2) && text.contains(part), "{text}");
     }
-    std::fs::write(folder.path().join("w.toml"), config.replace("palette = 3", "palette = 0")).unwrap();
+    std::fs::write(
+        folder.path().join("w.toml"),
+        config.replace("palette = 3", "palette = 0"),
+    )
+    .unwrap();
     let (code, text) = run(&["train", "w.toml", "--out", "w.json"]);
     assert!(code == Some(2) && text.contains("colours.palette = 0"), "{text}");
 }
