@@ -70,6 +70,7 @@ fn expm1<R: Real>(x: R) -> R {
         "expm1",
         "e^x - 1 for 0 <= x <= 1, without the cancellation of exp(x) - 1 near 0; relative error below 1e-7.",
         [("x", x)],
+        #[inline(always)]
         |[x]| {
             let mut p = x.like(1.0 / 3_628_800.0);
             for factorial in [362_880.0, 40_320.0, 5040.0, 720.0, 120.0, 24.0, 6.0, 2.0, 1.0] {

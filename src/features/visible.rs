@@ -154,6 +154,7 @@ pub fn first_hidden_depth<R: Real>(b0: R, b1: R, b2: R) -> R {
         "Moment depth from which on one looks for hidden fragments in a pixel; no depth reaches it where the pixel \
          lets too much light through.",
         [("b0", b0), ("b1", b1), ("b2", b2)],
+        #[inline(always)]
         |[b0, b1, b2]| {
             let least = c(f64::from(MIN_HIDING));
             let excess = (b0 - least).named("excess");

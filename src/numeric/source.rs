@@ -944,6 +944,7 @@ mod tests {
             "near_one",
             "ln(a^2 + 1), 0 where b is.",
             [("a", a), ("b", b)],
+            #[inline(always)]
             |[a, b]| R::select(b.eq(c(0.0)), b.like(0.0), (a * a + c(1.0)).ln()),
         )
     }

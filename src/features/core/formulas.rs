@@ -139,6 +139,7 @@ pub fn share_by_law<R: Real>(x: R, mean: R, spread: R) -> R {
         "share_by_law",
         "Share of the tail in front of x by the beta law with its mean and spread.",
         [("x", x), ("mean", mean), ("spread", spread)],
+        #[inline(always)]
         |[x, mean, spread]| {
             let x = x.clamp(c(-0.9999), c(0.9999)).named("place");
             let middle = (c(0.5) + c(0.5) * mean).clamp(c(1e-3), c(0.999)).named("middle");

@@ -21,6 +21,7 @@ pub fn absorbance<R: Real>(alpha: R) -> R {
         "absorbance",
         "Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.",
         [("alpha", alpha)],
+        #[inline(always)]
         |[alpha]| {
             let series = c(0.33333334) + alpha * (c(0.25) + alpha * c(0.2));
             let faint = (alpha * (c(1.0) + alpha * (c(0.5) + alpha * series))).named("faint");
@@ -37,6 +38,7 @@ pub fn log_ratio<R: Real>(a: R, b: R) -> R {
         "log_ratio",
         "ln(a / b), as accurate relative to itself where a is near b as elsewhere.",
         [("a", a), ("b", b)],
+        #[inline(always)]
         |[a, b]| {
             // ln(a/b) = 2 artanh(s)
             let s = ((a - b) / (a + b)).named("s");
@@ -59,6 +61,7 @@ pub fn moment_depth<R: Real>(v: R, [v0, v1]: [R; 2]) -> R {
          found the pixel's own nearest and farthest view depth, these may be v0 and v1 in both passes: then no pixel \
          is too thin for its moments.",
         [("v", v), ("v0", v0), ("v1", v1)],
+        #[inline(always)]
         |[v, v0, v1]| {
             let warped = c(2.0) * log_ratio(v, v0) / log_ratio(v1, v0).max(c(1e-30)) - c(1.0);
             R::select(v1.gt(v0), warped.clamp(c(-1.0), c(1.0)), v.like(0.0))
@@ -76,6 +79,7 @@ pub fn moments<R: Real, const K: usize>(z: R, absorbance: R) -> [R; K] {
         [("z", z), ("absorbance", absorbance)],
         ("", []),
         "own",
+        #[inline(always)]
         |[z, absorbance], []| {
             let mut term = absorbance;
             std::array::from_fn(|k| {
@@ -115,6 +119,7 @@ fn recentred_moments<R: Real, const K: usize>(
         ],
         ("b", b),
         "m",
+        #[inline(always)]
         |[z, absorbance, centre, per_h, per_b0], b| {
             let own = moments::<R, K>(z, absorbance);
             let mut m: [R; K] = std::array::from_fn(|k| ((b[k] - own[k]) * per_b0).named_at("m", k + 1));
@@ -158,6 +163,7 @@ pub fn place_in_thin<R: Real>(v: R, nearest: R, farthest: R) -> R {
         "place_in_thin",
         "Place of view depth v in the range of a thin pixel, in [-1, 1], where view depth says more than moment depth.",
         [("v", v), ("nearest", nearest), ("farthest", farthest)],
+        #[inline(always)]
         |[v, nearest, farthest]| {
             let range = (farthest - nearest).named("range");
             let t = ((v - nearest) / range.max(c(1e-30))).named("t");
@@ -180,6 +186,7 @@ fn shrink_to_prior<R: Real>(value: R, expected: R, noise: R, deviation: R) -> R 
             ("noise", noise),
             ("deviation", deviation),
         ],
+        #[inline(always)]
         |[value, expected, noise, deviation]| {
             // So that its square does not overflow.
             let bounded = noise.min(c(1e15)).named("bounded");
@@ -217,6 +224,7 @@ pub fn share_of_four<R: Real>(x: R, [mean, spread, u]: [R; 3], transition_width:
             ("u", u),
             ("transition_width", transition_width),
         ],
+        #[inline(always)]
         |[x, mean, spread, u, transition_width]| {
             // 1 − m_2
             let inner = ((c(1.0) - spread) * (c(1.0) - mean * mean)).named("inner");
