@@ -377,7 +377,7 @@ mod tests {
         let bytes = outer().encode_to_vec();
         assert_eq!(Outer::decode(&bytes).unwrap(), outer());
         // Unknown fields of all four wire types are skipped: as Inner, whose fields 2 and 4 and more are unknown.
-        let mut other = bytes[bytes.len() - 11..].to_vec();
+        let mut other = bytes[bytes.len() - 12..].to_vec();
         other.extend([
             0x29, 0, 0, 0, 0, 0, 0, 0, 0, 0x35, 0, 0, 0, 0, 0x3a, 1, 0, 0x0a, 1, b'x',
         ]);

@@ -164,11 +164,11 @@ impl<'a> Literals<'a> {
 impl Header {
     /// Reads the header of a file; what is wrong with it otherwise.
     fn read(bytes: &[u8]) -> Result<Self, String> {
+        if bytes.len() >= MAGIC.len() && !bytes.starts_with(MAGIC) {
+            return Err("it does not begin as a NumPy array does".to_owned());
+        }
         if !header_is_whole(bytes) {
             return Err("the file ends within its header; it is truncated, damaged or of another kind".to_owned());
-        }
-        if !bytes.starts_with(MAGIC) {
-            return Err("it does not begin as a NumPy array does".to_owned());
         }
         // A 16-bit length in version 1 of the format, 32 bits in 2 and 3.
         let (start, said) = match (bytes[6], bytes[7]) {
