@@ -1,15 +1,13 @@
 //! The files of a shader folder: include files, and the three passes as whole files for every graphics API.
 
 use super::calls::{channels, targets};
-use super::core::{self, CoreBinding, CoreLanguage, MAX_SHADER_MOMENTS};
+use super::core::{self, CoreLanguage, MAX_SHADER_MOMENTS};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
-use super::{ExportError, Format, calls, encode_as, translate};
-use crate::features::core::CoreSet;
+use super::{ExportError, Format, encode_as, translate};
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
-use crate::numeric::source::Source;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -67,37 +65,6 @@ impl Api {
             Self::WebGpu | Self::Metal => Format::WGSL,
             Self::Direct3d => Format::HLSL,
             _ => Format::GLSL,
-        }
-    }
-
-    /// Names and templates of its files for networks with a core; none where fragments have no atomics, or naga's
-    /// translation would need them.
-    fn core_templates(self) -> Vec<(&'static str, &'static str)> {
-        let own = match self {
-            Self::WebGpu => [
-                ("pass1.wgsl", include_str!("files/core/pass1.wgsl")),
-                ("pass2.wgsl", include_str!("files/core/pass2.wgsl")),
-            ],
-            Self::Direct3d => [
-                ("pass1.hlsl", include_str!("files/core/pass1.hlsl")),
-                ("pass2.hlsl", include_str!("files/core/pass2.hlsl")),
-            ],
-            Self::OpenGlEs300 | Self::Metal => return Vec::new(),
-            Self::OpenGl450 | Self::OpenGl430 | Self::OpenGlEs310 | Self::Vulkan => [
-                ("pass1.frag", include_str!("files/core/pass1.frag")),
-                ("pass2.frag", include_str!("files/core/pass2.frag")),
-            ],
-        };
-        // The resolve, and what goes with it, is that of every network.
-        own.into_iter().chain(self.templates().into_iter().skip(2)).collect()
-    }
-
-    /// The language of a core's functions.
-    fn core_language(self) -> CoreLanguage {
-        match self {
-            Self::WebGpu | Self::Metal => CoreLanguage::Wgsl,
-            Self::Direct3d => CoreLanguage::Hlsl,
-            _ => CoreLanguage::Glsl,
         }
     }
 
@@ -181,7 +148,7 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if let Some(core) = core_in_shaders(mlp) {
+    if let Some(core) = set.spec().core.filter(|core| core.moments <= MAX_SHADER_MOMENTS) {
         for (language, format) in [
             (CoreLanguage::Wgsl, Format::WGSL),
             (CoreLanguage::Glsl, Format::GLSL),
@@ -194,28 +161,17 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
             out.push(ShaderFile { path, text });
         }
     }
-    let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
-    if let Some(core) = core_in_shaders(mlp) {
-        for api in Api::ALL {
-            let include = core_functions(mlp, core, api)?;
-            for (name, template) in api.core_templates() {
-                let text = named(pass(mlp, api, template, &include));
-                let path = format!("{}/{name}", api.folder());
-                out.push(ShaderFile { path, text });
-            }
-        }
-    }
     if !set.spec().has_blended_passes() {
         return Ok(out);
     }
+    let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
     out.push(ShaderFile {
         path: format!("{}.unity.hlsl", mlp.name()),
         text: named(unity(mlp)),
     });
     for api in Api::ALL {
-        let include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
         for (name, template) in api.templates() {
-            let text = named(pass(mlp, api, template, &include));
+            let text = named(pass(mlp, api, template)?);
             let (name, text) = match api {
                 Api::Metal => {
                     let module = named(format!("nmt_{name}")).replace(".wgsl", "");
@@ -232,29 +188,6 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         }
     }
     Ok(out)
-}
-
-/// The core of a network that shaders have functions for.
-fn core_in_shaders(mlp: &Mlp) -> Option<CoreSet> {
-    let core = mlp.feature_set().spec().core;
-    core.filter(|core| core.moments <= MAX_SHADER_MOMENTS)
-}
-
-/// The functions that the passes of a network with a core are made of.
-fn core_functions(mlp: &Mlp, set: CoreSet, api: Api) -> Result<String, ExportError> {
-    let network = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
-    let language = api.core_language();
-    // Direct3D 11 counts render targets and such buffers together.
-    let place = CoreBinding {
-        binding: if api == Api::Direct3d { 2 } else { 0 },
-        ..CoreBinding::DEFAULT
-    };
-    let dialect = api.format().language().expect("passes are shaders").dialect();
-    let resolve = Source::new(dialect, "nmt");
-    calls::resolve(&resolve);
-    let (codes, insert) = (core::codes(set, language), core::insert(language, place));
-    let weigh = core::weigh_by_network(set, language);
-    Ok(format!("{network}\n{codes}\n{insert}{weigh}{}", resolve.into_text()))
 }
 
 /// Writes every file of a network below a folder, and returns their paths.
@@ -276,10 +209,11 @@ pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace
 /// A pass of an API by its template.
 ///
 /// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of
-/// such depth, `%es` where GLSL has precisions, `%vulkan` and `%opengl` there, `%sums` once a target of sums; `%include
-/// NAMES` are functions with all they use.
-fn pass(mlp: &Mlp, api: Api, template: &str, include: &str) -> String {
+/// such depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME` is a function with all
+/// it uses.
+fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let (set, glsl) = (mlp.feature_set(), api.glsl());
+    let include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
     let mut text = String::new();
     for line in template.lines() {
         let (kind, rest) = match line.strip_prefix('%') {
@@ -290,14 +224,12 @@ fn pass(mlp: &Mlp, api: Api, template: &str, include: &str) -> String {
             "" => text += line,
             "include" => {
                 text += comment(&short_header(mlp)).trim_end();
-                text += &reachable(include, rest);
+                text += &reachable(&include, rest);
             }
             "sums" => text += &each_target(set, rest),
             "log" if set.moment_depth() == MomentDepthKind::Log => text += rest,
             "window" if set.moment_depth() == MomentDepthKind::Window => text += rest,
             "es" if glsl.es => text += rest,
-            "vulkan" if api == Api::Vulkan => text += rest,
-            "opengl" if api != Api::Vulkan => text += rest,
             _ => continue,
         }
         text.push('\n');
@@ -319,23 +251,11 @@ fn pass(mlp: &Mlp, api: Api, template: &str, include: &str) -> String {
             .replace(&format!("{{uniform{i}}}"), &location(i))
             .replace(&format!("{{binding{i}}}"), &binding(i));
     }
-    if let Some(core) = set.spec().core {
-        let vectors = core::stride(core) / 4;
-        let read = |i: usize| match i {
-            0 => "core[first]".to_owned(),
-            i => format!("core[first + {i}u]"),
-        };
-        let slots: Vec<String> = (0..vectors).map(read).collect();
-        text = text
-            .replace("{slots}", &core::stride(core).to_string())
-            .replace("{vectors}", &vectors.to_string())
-            .replace("{core}", &slots.join(", "));
-    }
-    let api_name = if api == Api::Vulkan { "Vulkan" } else { glsl.name };
-    text.replace("{version}", glsl.version)
-        .replace("{api}", api_name)
+    Ok(text
+        .replace("{version}", glsl.version)
+        .replace("{api}", glsl.name)
         .replace("{sums}", &sums.join(", "))
-        .replace("{range}", &last.to_string())
+        .replace("{range}", &last.to_string()))
 }
 
 /// A line once a target of sums.
@@ -380,8 +300,8 @@ fn unity(mlp: &Mlp) -> String {
         .replace("{arguments}", &each(&|i| format!("Sums{i}")))
 }
 
-/// Paragraphs of a source that functions use, and themselves; each begins with an empty line.
-fn reachable(source: &str, functions: &str) -> String {
+/// Paragraphs of a source that a function uses, and itself; each begins with an empty line.
+fn reachable(source: &str, function: &str) -> String {
     // Names begin with nmt_, NMT_ or Nmt; a paragraph defines what its lines declare, and uses all other names in its
     // code.
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -405,7 +325,7 @@ fn reachable(source: &str, functions: &str) -> String {
         }
     }
     let mut used: HashSet<usize> = HashSet::new();
-    let mut open: Vec<String> = functions.split_whitespace().map(str::to_owned).collect();
+    let mut open = vec![function.to_owned()];
     while let Some(name) = open.pop() {
         if let Some(&index) = defined.get(&name)
             && used.insert(index)
