@@ -226,9 +226,9 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
             last
         }));
     }
-    let mut view_z = vec![0.0f32; total as usize];
-    let mut alpha = vec![0.0f32; total as usize];
-    let mut color = vec![[0.0f32; 3]; total as usize];
+    let mut view_z: Vec<f32> = zeros(total)?;
+    let mut alpha: Vec<f32> = zeros(total)?;
+    let mut color: Vec<[f32; 3]> = zeros(total)?;
     let mut jobs = Vec::with_capacity(counted.len());
     let mut rest = (view_z.as_mut_slice(), alpha.as_mut_slice(), color.as_mut_slice());
     for (band, (counts, nearest)) in counted.into_iter().enumerate() {
@@ -269,6 +269,18 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
         .with_size(view.width, view.height)
         .map_err(content)?
         .with_planes(view.planes))
+}
+
+/// An array of zeros for so many fragments.
+///
+/// # Errors
+/// [`SceneError::OutOfMemory`].
+fn zeros<T: Default + Clone>(fragments: u64) -> Result<Vec<T>, SceneError> {
+    let mut array = Vec::new();
+    let reserved = array.try_reserve_exact(fragments as usize);
+    reserved.map_err(|_| SceneError::OutOfMemory { fragments })?;
+    array.resize(fragments as usize, T::default());
+    Ok(array)
 }
 
 /// View depth beyond which a fragment of a pixel is not seen.

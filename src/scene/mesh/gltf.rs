@@ -52,6 +52,10 @@ const HARMLESS_VENDORS: [&str; 10] = [
     "ADOBE_", "AGI_", "CESIUM_", "FB_", "GOOGLE_", "MPEG_", "NV_", "VRM", "MOZ_", "OMI_",
 ];
 
+/// What to do about opacity that alphaMode OPAQUE makes nothing of.
+const UNDER_OPAQUE: &str =
+    "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the scene file";
+
 /// Extensions of materials that make them let light through in ways other than alpha.
 const OF_GLASS: [&str; 4] = [
     "KHR_materials_transmission",
@@ -651,10 +655,9 @@ impl File<'_> {
                 self.leave_out(format!("{glass}{factor} of material '{shown}'"), 1, &remedy);
             }
         }
-        if mode == AlphaMode::Opaque && part.rgba[3] < 1.0 && !alpha_given {
-            let remedy = "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the \
-                scene file";
-            self.leave_out(format!("alpha {} of material '{shown}'", part.rgba[3]), 1, remedy);
+        let ignored = mode == AlphaMode::Opaque && !alpha_given;
+        if ignored && part.rgba[3] < 1.0 {
+            self.leave_out(format!("alpha {} of material '{shown}'", part.rgba[3]), 1, UNDER_OPAQUE);
         }
         if mode == AlphaMode::Opaque {
             part.rgba[3] = 1.0;
@@ -662,6 +665,13 @@ impl File<'_> {
         if let Some(colors) = self.attribute(place, primitive, &Semantic::Colors(0), "COLOR_0", vertices)? {
             if !(3..=4).contains(&colors.width) {
                 return Err(self.wrong(place, "COLOR_0 must hold three or four numbers a vertex"));
+            }
+            let faint = match colors.width {
+                4 => colors.values.chunks_exact(4).filter(|row| row[3] < 1.0).count(),
+                _ => 0,
+            };
+            if ignored && faint > 0 {
+                self.leave_out(format!("alpha of COLOR_0 under material '{shown}'"), faint, UNDER_OPAQUE);
             }
             let row = |i: u32| {
                 let row = &colors.values[i as usize * colors.width..][..colors.width];
@@ -688,6 +698,9 @@ impl File<'_> {
         if let Some(info) = texture.filter(|_| matters) {
             match self.texture(&info, vertices, place, primitive) {
                 Ok((found, coordinates)) => {
+                    if ignored && found.image.has_alpha() {
+                        self.leave_out(format!("alpha of the texture of material '{shown}'"), 1, UNDER_OPAQUE);
+                    }
                     textures.color = Some(found);
                     part.uv = corners
                         .iter()
