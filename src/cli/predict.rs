@@ -3,7 +3,8 @@
 use super::scene::{load_list, refuse_outside};
 use super::ui::Ui;
 use super::{Verdict, keep_inputs, shown};
-use crate::evaluate::{AbsoluteError, transmittance_error};
+use crate::evaluate::transmittance_error;
+use crate::numeric::tolerance::AbsoluteError;
 use crate::features::{MomentFrame, OutputMeaning};
 use crate::infer::{Answered, Class, Skip, Tally};
 use crate::model::shipped;
