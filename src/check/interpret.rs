@@ -825,11 +825,7 @@ fn converted<const L: usize>(value: Value<L>, kind: naga::ScalarKind, convert: O
             }
             Ok(Value::Words(Arc::new(words)))
         }
-        _ => unsupported(Expression::As {
-            expr: *expr,
-            kind: *kind,
-            convert: *convert,
-        }),
+        _ => unsupported(format_args!("As")),
     }
 }
 

@@ -172,39 +172,10 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
     let screen = Screen::new(geometry, view);
     let (width, height) = (view.width as usize, view.height as usize);
     let bins = Bins::new(&screen, height);
-    let any_opaque = screen.triangles.iter().any(|t| t.opaque);
     let far = view.planes.far();
     let counted: Vec<(Vec<u32>, Vec<f32>)> = (0..bins.bands())
         .into_par_iter()
-        .map(|band| {
-            let rows = band * BAND..((band + 1) * BAND).min(height);
-            let mut nearest = if any_opaque {
-                vec![far; rows.len() * width]
-            } else {
-                Vec::new()
-            };
-            if any_opaque {
-                let opaque = bins
-                    .of(band)
-                    .iter()
-                    .filter_map(|&i| screen.triangles.get(i as usize))
-                    .filter(|t| t.opaque);
-                for t in opaque {
-                    t.draw(screen.materials, width, &rows, |p, z, rgba| {
-                        if rgba[3] >= 1.0 {
-                            nearest[p] = nearest[p].min(z);
-                        }
-                    });
-                }
-            }
-            let mut counts = vec![0u32; rows.len() * width];
-            for &i in bins.of(band) {
-                screen.count(i, width, &rows, |p, z| {
-                    counts[p] += u32::from(z <= limit(&nearest, p, far))
-                });
-            }
-            (counts, nearest)
-        })
+        .map(|band| count_band(&screen, bins.of(band), rows_of(band, height), width, far))
         .collect();
 
     let total: u64 = counted
@@ -241,7 +212,6 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
     }
     jobs.into_par_iter()
         .for_each(|(band, counts, nearest, z_out, a_out, c_out)| {
-            let rows = band * BAND..((band + 1) * BAND).min(height);
             let mut next = Vec::with_capacity(counts.len());
             let mut at = 0usize;
             for &c in &counts {
@@ -249,7 +219,7 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
                 at += c as usize;
             }
             for &i in bins.of(band) {
-                screen.draw(i, width, &rows, |p, z, rgba| {
+                screen.draw(i, width, &rows_of(band, height), |p, z, rgba| {
                     if z <= limit(&nearest, p, far) {
                         let at = next[p];
                         z_out[at] = z;
@@ -269,6 +239,41 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
         .with_size(view.width, view.height)
         .map_err(content)?
         .with_planes(view.planes))
+}
+
+/// The rows of a band.
+fn rows_of(band: usize, height: usize) -> Range<usize> {
+    band * BAND..((band + 1) * BAND).min(height)
+}
+
+/// Number of fragments of each pixel of a band, and the depth of its nearest opaque one; no depths where nothing is
+/// opaque.
+fn count_band(
+    screen: &Screen<'_>,
+    primitives: &[u32],
+    rows: Range<usize>,
+    width: usize,
+    far: f32,
+) -> (Vec<u32>, Vec<f32>) {
+    let mut nearest = Vec::new();
+    if screen.triangles.iter().any(|t| t.opaque) {
+        nearest.resize(rows.len() * width, far);
+        let triangles = primitives.iter().filter_map(|&i| screen.triangles.get(i as usize));
+        for t in triangles.filter(|t| t.opaque) {
+            t.draw(screen.materials, width, &rows, |p, z, rgba| {
+                if rgba[3] >= 1.0 {
+                    nearest[p] = nearest[p].min(z);
+                }
+            });
+        }
+    }
+    let mut counts = vec![0u32; rows.len() * width];
+    for &i in primitives {
+        screen.count(i, width, &rows, |p, z| {
+            counts[p] += u32::from(z <= limit(&nearest, p, far))
+        });
+    }
+    (counts, nearest)
 }
 
 /// An array of zeros for so many fragments.
@@ -643,6 +648,7 @@ mod tests {
     use super::*;
     use crate::scene::Camera;
     use proptest::prelude::*;
+    use std::ops::Range;
     use std::path::Path;
 
     fn view(width: u32, height: u32) -> View {
