@@ -16,6 +16,7 @@ use crate::numeric::rng::stream;
 use crate::pixel::FragmentList;
 use rand::RngExt;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Corner of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -648,7 +649,6 @@ mod tests {
     use super::*;
     use crate::scene::Camera;
     use proptest::prelude::*;
-    use std::ops::Range;
     use std::path::Path;
 
     fn view(width: u32, height: u32) -> View {
