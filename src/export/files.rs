@@ -157,7 +157,7 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
             let network = String::from_utf8(encode_as(mlp, format, None)?).expect("shader source is text");
             let text = core::text_with_network(core, language, &network);
             let text = prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
-            let path = format!("{}.passes{}", mlp.name(), format.suffix());
+            let path = format!("{}.chain{}", mlp.name(), format.suffix());
             out.push(ShaderFile { path, text });
         }
     }

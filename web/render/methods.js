@@ -70,7 +70,7 @@ function core(name, title, heavy, note) {
     kind: "blended",
     bits: 6 * 32 + (heavy + 2) * 32,
     slots: 4 * vectors,
-    functions: [`shaders/${name}/${name}.passes.wgsl`],
+    functions: [`shaders/${name}/${name}.chain.wgsl`],
     // The slots stand in the page's own group.
     fill: { "@group(3) @binding(0) var<storage": "@group(1) @binding(8) var<storage" },
     targets: [add("rgba32float"), add("rg32float")],
