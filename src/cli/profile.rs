@@ -211,8 +211,8 @@ impl Profile {
             ui.print_json(
                 "profile",
                 vec![json!({
-                    "scene": self.fragments.to_string_lossy(), "specialised": out, "from": model, "target_error": made.target_error,
-                        "target_error_held_out": made.target_held_out,
+                    "scene": self.fragments.to_string_lossy(), "specialised": out, "from": model,
+                        "target_error": made.target_error, "target_error_held_out": made.target_held_out,
                     "network_size": plan.size, "kept": chosen.kept, "before": made.before, "after": chosen,
                         "errors_before": made.errors_before, "errors_after": made.errors_after,
                     "attempts": made.attempts, "training_rows": made.rows[0], "held_out_rows": made.rows[1],
@@ -243,8 +243,8 @@ impl Profile {
             ui.print_json(
                 "profile",
                 vec![
-                    json!({ "scene": self.fragments.to_string_lossy(), "simplified": out, "from": model, "network": left.shape(),
-                    "report": report }),
+                    json!({ "scene": self.fragments.to_string_lossy(), "simplified": out, "from": model,
+                        "network": left.shape(), "report": report }),
                 ],
             )?;
         } else {
