@@ -115,14 +115,12 @@ impl Coded {
             a.store(absorbance_lanes(simd, a.load(simd)));
             let fragments: [CoreFragment; LANES] = std::array::from_fn(|i| codes.fragment(v[i], a.0[i]));
             let own = index * LANES..(index + 1) * LANES;
-            let write = |column: &mut Vec<u32>, value: &dyn Fn(CoreFragment) -> u32| {
-                column[own.clone()].copy_from_slice(&fragments.map(value));
-            };
-            write(&mut self.depth_step, &|f| f.depth_step);
-            write(&mut self.absorbance_step, &|f| f.absorbance_step);
-            for (column, slot) in self.codes.iter_mut().zip([Slot::Nearest, Slot::Farthest, Slot::Heavy]) {
-                write(column, &|f| codes.encode(slot, f));
-            }
+            self.depth_step[own.clone()].copy_from_slice(&fragments.map(|f| f.depth_step));
+            self.absorbance_step[own.clone()].copy_from_slice(&fragments.map(|f| f.absorbance_step));
+            let [nearest, farthest, heavy] = &mut self.codes;
+            nearest[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Nearest, f)));
+            farthest[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Farthest, f)));
+            heavy[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Heavy, f)));
             self.z[own.clone()].copy_from_slice(&fragments.map(|f| codes.moment_depth(f.depth_step)));
             self.absorbance[own].copy_from_slice(&fragments.map(|f| codes.absorbance(f.absorbance_step)));
         }
@@ -191,6 +189,10 @@ impl Workspace<'_> {
             .fill(simd, self.codes, &list.view_z()[all.clone()], &list.alpha()[all]);
         for of in offsets.windows(2).filter(|of| of[0] < of[1]) {
             let own = (of[0] - offsets[0]) as usize..(of[1] - offsets[0]) as usize;
+            if own.len() <= self.slots.min(LANES) {
+                self.all_in_core(simd, own, out, classes);
+                continue;
+            }
             let sums = self.coded.sums::<N>(self.codes, self.slots, own.clone());
             let between = Between::new(self.codes, self.slots, &sums);
             self.pass_2(simd, &between, own, out, classes);
@@ -198,6 +200,22 @@ impl Workspace<'_> {
         if let Some(waiting) = &mut self.waiting {
             waiting.flush(out);
         }
+    }
+
+    /// Both passes over a pixel whose fragments are all in the core.
+    #[inline(always)]
+    fn all_in_core<S: Simd>(&self, simd: S, own: Range<usize>, out: &mut [f32], classes: &mut [Class]) {
+        let [z, zero] = [&self.coded.z[own.start..own.start + LANES], &[0.0; LANES]].map(|v| f32x16::from_slice(simd, v));
+        let mut front = zero;
+        for i in own.clone() {
+            let [core_z, core_absorbance] =
+                [self.coded.z[i], self.coded.absorbance[i]].map(|value| f32x16::splat(simd, value));
+            front += Select::select(core_z.simd_lt(z), core_absorbance, zero);
+        }
+        let mut lanes = Lanes::ZERO;
+        lanes.store(transmittance(front, zero, zero));
+        out[own.clone()].copy_from_slice(&lanes.0[..own.len()]);
+        classes[own].fill(Class::Known);
     }
 
     #[inline(always)]
@@ -225,7 +243,7 @@ impl Workspace<'_> {
                     None => t = Select::select(answers.is_known, t, by_law(query)),
                     Some(waiting) => {
                         if self.is_faint_known {
-                            let [most, least] = range(query, between.are_bounds_exact(query));
+                            let [most, least] = range(query, between.bounds_noise(query));
                             let is_faint = (most - least).simd_le(f32x16::splat(simd, 2.0 * VISIBLE));
                             let faint = unknown & is_faint.to_bitmask();
                             if faint != 0 {
@@ -261,15 +279,14 @@ fn for_each_lane(mut lanes: u64, mut f: impl FnMut(usize)) {
     }
 }
 
-/// The greatest and the least T that the moments of the tail allow; where rounding has made noise of them, that its
-/// absorbance allows.
+/// The greatest and the least T that the moments of the tail allow, where rounding may have moved their bounds by
+/// `noise`.
 #[inline(always)]
-fn range<R: Real, const N: usize>(query: &Query<N, R>, are_bounds_exact: R::Mask) -> [R; 2] {
+fn range<R: Real, const N: usize>(query: &Query<N, R>, noise: R) -> [R; 2] {
     let [_, _, _, lower, upper] = query.fixed;
-    [(lower, 0.0), (upper, 1.0)].map(|(bound, without)| {
-        let share = R::select(are_bounds_exact, bound, bound.like(without));
-        transmittance(query.front, query.tail, share)
-    })
+    let zero = noise.like(0.0);
+    [(lower - noise).max(zero), (upper + noise).min(noise.like(1.0))]
+        .map(|share| transmittance(query.front, query.tail, share))
 }
 
 /// Transmittance by the beta law; with the spread of the uniform law where there is only a mean.

@@ -259,18 +259,13 @@ impl<const N: usize> Between<N> {
         }
     }
 
-    /// Whether rounding of the sums has left the bounds of a fragment's tail what they are, to a hundredth.
+    /// How far rounding of the sums may have moved the bounds of a fragment's tail.
     #[inline(always)]
-    pub fn are_bounds_exact<R: Real>(&self, query: &Query<N, R>) -> R::Mask {
+    pub fn bounds_noise<R: Real>(&self, query: &Query<N, R>) -> R {
         let number = |value: f32| query.tail.like(value.into());
-        let noise = place_noise(
-            number(self.total),
-            query.tail,
-            number(self.center),
-            number(self.per_h),
-        );
-        let [mean, spread] = [1, 2].map(|k| query.described[if k < N { k } else { 0 }]);
-        bounds_noise::<R, N>(noise, number(self.center), number(self.per_h), mean, spread).lt(c(0.01))
+        let range = [number(self.center), number(self.per_h)];
+        let described = [1, 2.min(N - 1)].map(|k| query.described[k]);
+        bounds_noise::<R, N>(number(self.total), query.tail, range, described)
     }
 }
 
