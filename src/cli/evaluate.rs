@@ -13,8 +13,8 @@ use super::ui::Ui;
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::order::{fragment_orders, judge_in_orders};
-use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
-use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
+use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_floats, write_image, write_method};
+use crate::evaluate::{EvaluateError, Image, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
@@ -86,6 +86,10 @@ pub struct Evaluate {
     /// How the GPU stores sums between render passes.
     #[arg(long, value_enum, requires = "gpu", default_value = "full")]
     gpu_storage: StorageName,
+    /// Write every image also as numbers: beside NAME.png stands NAME.npy, f32 [height, width, 3] of linear colour,
+    /// neither clamped nor encoded.
+    #[arg(long, conflicts_with = "shadows")]
+    float_images: bool,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
@@ -234,6 +238,9 @@ impl Session<'_> {
             };
             let stem = free_stem(&method.name(), &mut stems);
             write_method(&self.folder(&name), &stem, self.replace, &judged)?;
+            if let Some((image, _)) = &judged.picture {
+                self.write_floats(&name, &stem, image)?;
+            }
             let drawn = self.draw(&name, &stem, &truth, requested, &judged, &mut remarks)?;
             judged.result.picture = judged.picture.is_some().then_some(stem);
             if let Some(sheet) = &mut sheet {
@@ -267,11 +274,20 @@ impl Session<'_> {
         self.options.out.join(scene)
     }
 
+    /// Writes an image as numbers where that was asked for.
+    fn write_floats(&self, scene: &str, stem: &str, image: &Image) -> anyhow::Result<()> {
+        if self.options.float_images {
+            write_floats(&self.folder(scene).join(format!("{stem}.npy")), self.replace, image)?;
+        }
+        Ok(())
+    }
+
     /// Writes the exact image and begins the contact sheet; errors of T need neither.
     fn sheet(&self, name: &str, truth: &Truth<'_>, remarks: &mut String) -> anyhow::Result<Option<Sheet>> {
         match truth.image() {
             Ok(image) => {
                 write_image(&self.folder(name).join("truth.png"), self.replace, image)?;
+                self.write_floats(name, "truth", image)?;
                 Ok(Some(Sheet::new(name, truth.list(), image)))
             }
             Err(why) => {
@@ -353,6 +369,7 @@ impl Session<'_> {
                 let folder = self.folder(scene);
                 write_image(&folder.join(format!("{stem}.gpu.png")), self.replace, &drawn.image)?;
                 write_flip(&folder.join(format!("{stem}.gpu.flip.png")), self.replace, &drawn.map)?;
+                self.write_floats(scene, &format!("{stem}.gpu"), &drawn.image)?;
                 Ok(Some(drawn.result))
             }
             Err(why) => {

@@ -1,6 +1,7 @@
 //! The files of a shader folder: include files, and the three passes as whole files for every graphics API.
 
-use super::calls::{channels, has_passes, targets};
+use super::calls::{channels, targets};
+use super::core::{self, CoreLanguage, MAX_SHADER_MOMENTS};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
 use super::{ExportError, Format, encode_as, translate};
@@ -134,7 +135,8 @@ pub struct ShaderFile {
     pub text: String,
 }
 
-/// Every file of a network: the include files, and where its answer is a transmittance the passes of every API.
+/// Every file of a network: the include files; where blended sums are all that its answer needs, the passes of every
+/// API; where it has a core, the functions of both passes around it.
 ///
 /// # Errors
 /// [`ExportError`].
@@ -146,7 +148,20 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if !has_passes(set) {
+    if let Some(core) = set.spec().core.filter(|core| core.moments <= MAX_SHADER_MOMENTS) {
+        for (language, format) in [
+            (CoreLanguage::Wgsl, Format::WGSL),
+            (CoreLanguage::Glsl, Format::GLSL),
+            (CoreLanguage::Hlsl, Format::HLSL),
+        ] {
+            let network = String::from_utf8(encode_as(mlp, format, None)?).expect("shader source is text");
+            let text = core::text_with_network(core, language, &network);
+            let text = prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
+            let path = format!("{}.chain{}", mlp.name(), format.suffix());
+            out.push(ShaderFile { path, text });
+        }
+    }
+    if !set.spec().has_blended_passes() {
         return Ok(out);
     }
     let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));

@@ -1,6 +1,6 @@
 //! Files of a core whose tail is a beta law, ready to be included.
 
-use super::{CoreBinding, CoreLanguage, codes, insert, weigh};
+use super::{CoreBinding, CoreLanguage, codes, insert, weigh, weigh_by_network};
 use crate::export::ExportError;
 use crate::features::core::CoreSet;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
@@ -30,17 +30,36 @@ pub fn file_name(set: CoreSet, language: CoreLanguage) -> String {
 
 /// The whole file in a language: how to use it, codes, insertion chain and weight.
 pub fn text(set: CoreSet, language: CoreLanguage) -> String {
+    let insert = insert(language, CoreBinding::DEFAULT);
+    format!(
+        "{}\n{}\n{insert}{}",
+        about(set),
+        codes(set, language),
+        weigh(set, language)
+    )
+}
+
+/// The whole file of a core whose tail a network shares out, around the export of that network.
+///
+/// # Panics
+/// As [`weigh_by_network`].
+pub fn text_with_network(set: CoreSet, language: CoreLanguage, network: &str) -> String {
+    let insert = insert(language, CoreBinding::DEFAULT);
+    let weigh = weigh_by_network(set, language);
+    format!("{}\n{network}\n{}\n{insert}{weigh}", about(set), codes(set, language))
+}
+
+/// How to use such a file, as a comment.
+fn about(set: CoreSet) -> String {
     let about = include_str!("about.txt")
         .replace("CORE_HEAVY", &set.heavy.to_string())
         .replace("CORE_SLOTS", &super::stride(set).to_string())
         .replace("CORE_MOMENTS", &set.moments.to_string())
         .replace("CORE_VERSION", env!("CARGO_PKG_VERSION"));
-    let about: String = about
+    about
         .lines()
         .map(|line| format!("// {line}").trim_end().to_owned() + "\n")
-        .collect();
-    let insert = insert(language, CoreBinding::DEFAULT);
-    format!("{about}\n{}\n{insert}{}", codes(set, language), weigh(set, language))
+        .collect()
 }
 
 /// Writes a core's files into a folder.

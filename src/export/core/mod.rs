@@ -11,7 +11,7 @@ mod file;
 mod interleaving;
 pub mod weigh;
 
-pub use file::{file_name, named, text, write};
+pub use file::{file_name, named, text, text_with_network, write};
 pub use weigh::{MAX_SHADER_MOMENTS, weigh, weigh_by_network};
 
 use crate::features::core::CoreSet;

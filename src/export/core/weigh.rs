@@ -280,7 +280,7 @@ fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, 
     source.end_if();
     let fixed = fixed_features(q.x, q.count, q.tail, q.m);
     let features: Vec<_> = fixed.into_iter().chain(described(q.m).into_iter().skip(1)).collect();
-    let row = source.array("features", &features);
+    let row = source.numbers(&features);
     let answer = source.call(ENTRY, &[row]);
     source.return_value((-q.front).exp() * answer);
 }
