@@ -12,8 +12,8 @@ use crate::features::core::code::{Codes, CoreFragment, Slot};
 use crate::features::core::formulas::{share_by_law, transmittance};
 use crate::features::core::pixel::{Between, Query, Sums, with_sums};
 use crate::features::core::{CoreSet, FIXED};
-use crate::numeric::lanes::{LANES, Lanes};
 use crate::numeric::Real;
+use crate::numeric::lanes::{LANES, Lanes};
 use crate::pixel::{FragmentList, absorbance_lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16, mask32x16};
@@ -103,7 +103,13 @@ impl Coded {
     fn fill<S: Simd>(&mut self, simd: S, codes: &Codes, view_z: &[f32], alpha: &[f32]) {
         let len = view_z.len().next_multiple_of(LANES) + LANES;
         let [nearest, farthest, heavy] = &mut self.codes;
-        for column in [&mut self.depth_step, &mut self.absorbance_step, nearest, farthest, heavy] {
+        for column in [
+            &mut self.depth_step,
+            &mut self.absorbance_step,
+            nearest,
+            farthest,
+            heavy,
+        ] {
             column.resize(len, 0);
         }
         self.z.resize(len, 0.0);
@@ -205,7 +211,8 @@ impl Workspace<'_> {
     /// Both passes over a pixel whose fragments are all in the core.
     #[inline(always)]
     fn all_in_core<S: Simd>(&self, simd: S, own: Range<usize>, out: &mut [f32], classes: &mut [Class]) {
-        let [z, zero] = [&self.coded.z[own.start..own.start + LANES], &[0.0; LANES]].map(|v| f32x16::from_slice(simd, v));
+        let [z, zero] =
+            [&self.coded.z[own.start..own.start + LANES], &[0.0; LANES]].map(|v| f32x16::from_slice(simd, v));
         let mut front = zero;
         for i in own.clone() {
             let [core_z, core_absorbance] =
@@ -229,8 +236,8 @@ impl Workspace<'_> {
     ) {
         for at in own.clone().step_by(LANES) {
             let len = (own.end - at).min(LANES);
-            let [z, absorbance] = [&self.coded.z, &self.coded.absorbance]
-                .map(|column| f32x16::from_slice(simd, &column[at..at + LANES]));
+            let [z, absorbance] =
+                [&self.coded.z, &self.coded.absorbance].map(|column| f32x16::from_slice(simd, &column[at..at + LANES]));
             let answers = between.answers(z, absorbance);
             let zero = f32x16::splat(simd, 0.0);
             let mut t = transmittance(answers.depth, zero, zero);
@@ -253,9 +260,13 @@ impl Workspace<'_> {
                                 unknown &= !faint;
                             }
                         }
-                        for_each_lane(unknown, |lane| class_of[lane] = Class::Network);
+                        if unknown.count_ones() as usize == len {
+                            class_of.fill(Class::Network);
+                        } else {
+                            for_each_lane(unknown, |lane| class_of[lane] = Class::Network);
+                        }
                         self.tally.rows += u64::from(unknown.count_ones());
-                        waiting.push(simd, query, unknown, at);
+                        waiting.push(simd, query, unknown, at..at + len);
                     }
                 }
             }
@@ -322,19 +333,32 @@ impl<'a> Waiting<'a> {
         self.fragments.len() > ROWS - LANES
     }
 
-    /// Adds those lanes of a vector of fragments from `at` on whose bits are set.
+    /// Adds those fragments of a vector whose bits are set.
     #[inline(always)]
-    fn push<S: Simd, const N: usize>(&mut self, simd: S, query: &Query<N, f32x16<S>>, lanes: u64, at: usize) {
+    fn push<S: Simd, const N: usize>(
+        &mut self,
+        simd: S,
+        query: &Query<N, f32x16<S>>,
+        lanes: u64,
+        fragments: Range<usize>,
+    ) {
         let row = self.fragments.len();
-        let mask = mask32x16::from_bitmask(simd, lanes);
-        let values = query.fixed.iter().chain(&query.described[1..]);
-        for (column, value) in self.columns.iter_mut().zip(values) {
-            value.compress(mask).store_slice(&mut column[row..row + LANES]);
-        }
         let zero = f32x16::splat(simd, 0.0);
         let front = transmittance(query.front, zero, zero);
-        front.compress(mask).store_slice(&mut self.front[row..row + LANES]);
-        for_each_lane(lanes, |lane| self.fragments.push((at + lane) as u32));
+        let values = query.fixed.iter().chain(&query.described[1..]).chain([&front]);
+        let columns = self.columns.iter_mut().chain([&mut self.front]);
+        if lanes.count_ones() as usize == fragments.len() {
+            for (column, value) in columns.zip(values) {
+                value.store_slice(&mut column[row..row + LANES]);
+            }
+            self.fragments.extend(fragments.map(|fragment| fragment as u32));
+        } else {
+            let mask = mask32x16::from_bitmask(simd, lanes);
+            for (column, value) in columns.zip(values) {
+                value.compress(mask).store_slice(&mut column[row..row + LANES]);
+            }
+            for_each_lane(lanes, |lane| self.fragments.push((fragments.start + lane) as u32));
+        }
     }
 
     fn flush(&mut self, out: &mut [f32]) {
@@ -427,7 +451,11 @@ mod tests {
             };
             let (sum, most) = errors(&found);
             let mean = (sum / list.len() as f64).sqrt();
-            assert!(mean <= 1e-6 && most.sqrt() <= 1e-4, "{heavy} {N}: {mean} {}", most.sqrt());
+            assert!(
+                mean <= 1e-6 && most.sqrt() <= 1e-4,
+                "{heavy} {N}: {mean} {}",
+                most.sqrt()
+            );
             found.rotate_left(1);
             assert!(errors(&found).1.sqrt() > 0.1);
         }

@@ -213,7 +213,9 @@ fn bounds_of_two<R: Real>(x: R, m: [R; 2]) -> [R; 2] {
         |[x, m1, m2], []| {
             let bias = |m: R, uniform: f64| m * c(1.0 - BOUNDS_BIAS) + c(uniform * BOUNDS_BIAS);
             let mean = (m1 * c(1.0 - BOUNDS_BIAS)).named("mean");
-            let variance = (bias(m2, 1.0 / 3.0) - mean * mean).max(c(MIN_VARIANCE)).named("variance");
+            let variance = (bias(m2, 1.0 / 3.0) - mean * mean)
+                .max(c(MIN_VARIANCE))
+                .named("variance");
             let place = (x - mean).named("place");
             let at = (variance / (variance + place * place)).named("at");
             let lower = R::select(place.lt(c(0.0)), x.like(0.0), c(1.0) - at).named("lower");
@@ -258,7 +260,8 @@ fn bounds_of_four<R: Real>(x: R, m: [R; 4]) -> [R; 2] {
             // The other two points are the roots of q u² + (y − q g) u + 1 − q: one on either side of y where q < 0,
             // both on one side of it elsewhere.
             let linear = (y - q * g).named("linear");
-            let per_root = (c(1.0) / (linear * linear - c(4.0) * q * (c(1.0) - q)).max(c(1e-12)).sqrt()).named("per_root");
+            let per_root =
+                (c(1.0) / (linear * linear - c(4.0) * q * (c(1.0) - q)).max(c(1e-12)).sqrt()).named("per_root");
             let between = c(0.5) * rest * (c(1.0) + linear * per_root) - at * y * q * per_root;
             let between = between.clamp(c(0.0), rest).named("between");
             let outside = R::select(y.gt(c(0.5) * g), rest, x.like(0.0));

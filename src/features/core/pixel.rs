@@ -2,7 +2,8 @@
 
 use super::code::{Codes, CoreFragment, EMPTY, MAX_SLOTS, Slot};
 use super::formulas::{
-    absorbance_of, bounds_noise, described, fixed_features, normalised, place_noise, recentred, share_of_one, share_of_two, without,
+    absorbance_of, bounds_noise, described, fixed_features, normalised, place_noise, recentred, share_of_one,
+    share_of_two, without,
 };
 use super::{CoreSet, FIXED};
 use crate::numeric::real::{Real, c};
