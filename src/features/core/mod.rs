@@ -140,7 +140,7 @@ const fn spec<const M: usize>(name: &'static str, answer: &'static str, heavy: u
         // Its rows are those that need the network.
         exact: ExactRules::NONE,
         tolerances: Tolerances {
-            single: 5e-6,
+            single: 2e-5,
             half: 1e-1,
             half_mean: 1e-3,
             usual_feature_log2: 4,
