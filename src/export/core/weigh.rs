@@ -9,8 +9,8 @@ use crate::export::dialect::{Glsl, Hlsl, Wgsl};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
-    absorbance_feature, absorbance_of, count_feature, described, normalised, place_noise, recentred, share_by_law,
-    share_of_one, share_of_two, transmittance, without,
+    absorbance_of, described, fixed_features, normalised, place_noise, recentred, share_by_law, share_of_one,
+    share_of_two, transmittance, without,
 };
 use crate::numeric::real::{Constant, Real, c};
 use crate::numeric::source::{Dialect, Expression, Source, Type};
@@ -278,7 +278,7 @@ fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, 
     transmittance(q.front, q.tail, q.exact).named("known");
     source.statement("return known;");
     source.end_if();
-    let fixed = [q.x, count_feature(q.count), absorbance_feature(q.tail)];
+    let fixed = fixed_features(q.x, q.count, q.tail, q.m);
     let features: Vec<_> = fixed.into_iter().chain(described(q.m).into_iter().skip(1)).collect();
     let row = source.numbers(&features);
     let answer = source.call(ENTRY, &[row]);
