@@ -271,7 +271,8 @@ fn bounds_of_four<R: Real>(x: R, m: [R; 4]) -> [R; 2] {
     )
 }
 
-/// How far rounding of the sums may have moved [`bounds`]: `total` is b_0, `tail` b_0'', mean and spread are the tail's.
+/// How far rounding of the sums may have moved [`bounds`]: `total` is b_0, `tail` b_0'', mean and spread are the
+/// tail's.
 #[inline(always)]
 pub fn bounds_noise<R: Real, const N: usize>(total: R, tail: R, [center, per_h]: [R; 2], [mean, spread]: [R; 2]) -> R {
     // Each further moment in the pixel's own range is off by so much more.
@@ -357,8 +358,8 @@ mod tests {
         (0.3, 0.2, 0.01, 0.845287),
     ];
 
-    /// Bounds hold for random measures of one to twelve points to 1e-3, in f64 and in f32, and are often narrow. Control:
-    /// the bounds of the mirrored place.
+    /// Bounds hold for random measures of one to twelve points to 1e-3, in f64 and in f32, and are often narrow.
+    /// Control: the bounds of the mirrored place.
     #[test]
     fn shares_lie_within_their_bounds() {
         let mut rng = stream(1, 123, 0);
