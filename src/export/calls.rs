@@ -37,6 +37,15 @@ pub fn has_passes(set: FeatureSet) -> bool {
     )
 }
 
+/// Source of `nmt_resolve`, the same for all that composite by Eq. 7 of NMT24.
+pub fn resolve(language: Language) -> &'static str {
+    match language {
+        Language::Wgsl => include_str!("calls/resolve.wgsl"),
+        Language::Glsl => include_str!("calls/resolve.glsl"),
+        Language::Hlsl => include_str!("calls/resolve.hlsl"),
+    }
+}
+
 /// Source of the calls of a feature set; none where it has no such passes.
 pub fn source(language: Language, set: FeatureSet) -> String {
     if !has_passes(set) {
@@ -50,11 +59,6 @@ pub fn source(language: Language, set: FeatureSet) -> String {
         (Language::Glsl, MomentDepthKind::Window) => include_str!("calls/paper.glsl"),
         (Language::Hlsl, MomentDepthKind::Window) => include_str!("calls/paper.hlsl"),
         (_, MomentDepthKind::None) => return String::new(),
-    };
-    let resolve = match language {
-        Language::Wgsl => include_str!("calls/resolve.wgsl"),
-        Language::Glsl => include_str!("calls/resolve.glsl"),
-        Language::Hlsl => include_str!("calls/resolve.hlsl"),
     };
     let (k, targets) = (set.moments(), targets(set));
     let vector = ["vec4<f32>", "vec4", "float4"][language as usize];
@@ -110,5 +114,5 @@ pub fn source(language: Language, set: FeatureSet) -> String {
             &moments_of.replace("NMT_ARGUMENTS", arguments),
         )
         .replace("NMT_MOMENTS", &array)
-        + resolve
+        + resolve(language)
 }
