@@ -17,13 +17,14 @@ or run it:
         --onnx M.onnx                                ... compared with onnxruntime on the same features
         --dataset DIR                                ... compared with a dataset of the same pixels
 
-It shares no code with nmt: everything is computed from the JSON and the fragment list, in f64, so it is a second opinion. It needs NumPy;
-torch runs the network where a device is named, and onnxruntime is needed for --onnx alone. Exit code 0 where all comparisons hold, 1 where
-one does not, 2 for wrong input.
+It shares no code with nmt: everything is computed from the JSON and the fragment list, in f64, so it is a second
+opinion. It needs NumPy; torch runs the network where a device is named, and onnxruntime is needed for --onnx alone.
+Exit code 0 where all comparisons hold, 1 where one does not, 2 for wrong input.
 """
 
 import argparse
 import dataclasses
+import functools
 import json
 import pathlib
 import sys
@@ -156,8 +157,8 @@ def read_dataset(folder):
     folder = pathlib.Path(folder)
     manifest = json.loads((folder / "manifest.json").read_text())
     load = lambda part, name: np.load(folder / f"{part}_{name}.npy", mmap_mode="r")
-    parts = [Rows(*(load(part, name) for name in ("features", "targets", "pixels"))) for part in ("training", "validation")]
-    return Dataset(manifest, *parts)
+    rows = lambda part: Rows(*(load(part, name) for name in ("features", "targets", "pixels")))
+    return Dataset(manifest, rows("training"), rows("validation"))
 
 
 @dataclasses.dataclass
@@ -181,7 +182,7 @@ def read_model(path):
     if document.get("format") != "nmt-model" or document.get("version") != 1:
         raise InputError(f"{path}: not a model file of version 1")
     if document["feature_set"] not in FEATURE_SETS:
-        known = ", ".join(FEATURE_SETS)
+        known = ", ".join(name for name in FEATURE_SETS if not name.startswith("core-")) + ", core-K-M"
         raise InputError(f"{path}: feature set '{document['feature_set']}'; this reader knows {known}")
     layers = [(np.array(l["weights"], np.float32), np.array(l["biases"], np.float32)) for l in document["layers"]]
     return Model(document["name"], document["feature_set"], document["features"], document["output"], layers)
@@ -210,7 +211,8 @@ def exact_transmittance(fragments):
 #
 # A feature set is one function: it takes the fragments and the number of moments and returns
 #   rows   f32 [F, W]: features of every fragment; those of fragments that need no network are not used,
-#   known  f64 [F]: the answer where no network is needed, NaN elsewhere.
+#   known  f64 [F]: the answer where no network is needed, NaN elsewhere,
+#   front  f64 [F]: absorbance in front that the network's answer does not hold; T = exp(-front) times that answer.
 # A new one gets an entry in FEATURE_SETS below.
 
 
@@ -227,7 +229,7 @@ def paper_features(fragments, moments):
     absorbance, z = fragments.absorbance, 2 * w - 1
     sums = [fragments.totals(absorbance * z**k)[pixel] for k in range(moments + 1)]
     n = fragments.counts.astype(np.float64)[pixel]
-    return np.stack([d, n, *sums], axis=1).astype(np.float32), np.full(len(v), np.nan)
+    return np.stack([d, n, *sums], axis=1).astype(np.float32), np.full(len(v), np.nan), np.zeros(len(v))
 
 
 def deep_weighted_blended_features(fragments, moments):
@@ -237,7 +239,7 @@ def deep_weighted_blended_features(fragments, moments):
     depth = (v - least) / extent if extent > 0 else np.zeros_like(v)
     alpha = fragments.totals(fragments.alpha.astype(np.float64))[pixel]
     n = fragments.counts.astype(np.float64)[pixel]
-    return np.stack([depth, alpha, n], axis=1).astype(np.float32), np.full(len(v), np.nan)
+    return np.stack([depth, alpha, n], axis=1).astype(np.float32), np.full(len(v), np.nan), np.zeros(len(v))
 
 
 def recentred_features(fragments, moments):
@@ -253,14 +255,7 @@ def recentred_features(fragments, moments):
     n = fragments.counts.astype(np.float64)[pixel]
 
     rows = [x, np.log2(np.maximum(n, 1)) / 3 - 1, np.log(np.maximum(others, 0) + 0.05)]
-    for level in range(moments // 2):
-        weight = a * (1 - x**2) ** level
-        m = [fragments.totals(weight * x**k)[pixel] - weight * x**k for k in range(3)]
-        m = [sums / np.maximum(others, 1e-300) for sums in m]
-        mass = np.maximum(m[0], 1e-6)
-        mean = m[1] / mass
-        spread = (m[2] / mass - mean**2) / np.maximum(1 - mean**2, 1e-6)
-        rows += [mean, spread if level == 0 else np.sqrt(np.maximum(spread, 0))]
+    rows += described([fragments.totals(a * x**k)[pixel] - a * x**k for k in range(moments + 1)], 1e-300)
 
     nearest, farthest = (ends[pixel] for ends in fragments.extremes(fragments.view_z))
     known = np.full(len(v), np.nan)
@@ -269,7 +264,128 @@ def recentred_features(fragments, moments):
     at_end = fragments.view_z == farthest
     known[at_end] = np.exp(-others[at_end])
     known[(fragments.view_z == nearest) | (others <= 1e-6 * total)] = 1.0
-    return np.stack(rows, axis=1).astype(np.float32), known
+    return np.stack(rows, axis=1).astype(np.float32), known, np.zeros(len(v))
+
+
+def described(sums, least):
+    """Mean and spread of the measure with moments sums[0], sums[1], ... on [-1, 1], then of (1 - x^2) times it, ..."""
+    m, columns = [moment / np.maximum(sums[0], least) for moment in sums], []
+    m[1:] = [np.clip(moment, -1, 1) for moment in m[1:]]
+    while len(m) > 1:
+        mass = np.maximum(m[0], 1e-6)
+        mean = np.clip(m[1] / mass, -1, 1)
+        if len(m) == 2:
+            return columns + [mean]
+        spread = np.clip((m[2] / mass - mean**2) / np.maximum(1 - mean**2, 1e-6), 0, 1)
+        columns += [mean, np.sqrt(spread) if columns else spread]
+        m = [m[k] - m[k + 2] for k in range(len(m) - 2)]
+    return columns
+
+
+DEPTH_STEPS = 1 << 16  # of a core's codes
+OCTAVE_BITS = 11  # steps of absorbance to the octave, as a power of two
+KEY_EXPONENT = 6  # k of the key A / v^k
+LINEAR_BELOW = np.float32(2.0**-10)  # absorbance below which steps are linear
+
+
+def log2_bits(bits):
+    """Logarithm of base 2 of positive f32 numbers given as integers, in units of 2^-23 octaves, in integers alone."""
+    m = bits & 0x7FFFFF
+    high, low = m >> 11, m & 2047
+    return bits + ((11 * ((high * (4096 - high) >> 1) + (low * (2048 - high) >> 11))) >> 5)
+
+
+def core_steps(fragments):
+    """Depth step and absorbance step of every fragment, and how much nearness adds to the key of the heavy slots."""
+    bits = lambda values: np.asarray(values, np.float32).view(np.int32).astype(np.int64)
+    v = fragments.view_z
+    first, last = (bits(end) for end in ((v.min(), v.max()) if len(v) else (1.0, 1.0)))
+    span = int(log2_bits(last) - log2_bits(first))
+    shift = max(span.bit_length() - DEPTH_STEPS.bit_length(), 0)
+    multiplier = (1 << 31) // ((span >> shift) + 1)
+    q = (log2_bits(bits(v)) - log2_bits(first) >> shift) * multiplier // ((1 << 31) // DEPTH_STEPS)
+
+    def step(absorbance):
+        above = bits(np.float32(absorbance) + LINEAR_BELOW) - bits(LINEAR_BELOW)
+        return (above + (1 << (22 - OCTAVE_BITS))) >> (23 - OCTAVE_BITS)
+
+    slope = int(np.float32(span >> 8) * np.float32(KEY_EXPONENT * 2.0 ** (OCTAVE_BITS - 15)))
+    return q, step(fragments.absorbance), min(slope, 0xFFFF - int(step(10.0)))
+
+
+def core_of(fragments, q, a, slope, slots):
+    """The core: fragments of every slot and pixel, int [slots, P], -1 where it is empty; and which are in the tail.
+
+    First the nearest, then the farthest of the others, then the heaviest of the rest. Ties in depth go to the heavier
+    one, ties in weight to the nearer one. A fragment that absorbs nothing is in neither.
+    """
+    near = DEPTH_STEPS - 1 - q
+    codes = [near << 16 | a, q << 16 | a] + [(a + (near * slope >> 16)) << 16 | near] * (slots - 2)
+    core = np.full((slots, len(fragments.offsets) - 1), -1)
+    left = a > 0
+    for slot, code in enumerate(codes):
+        code = np.where(left, code, -1)
+        greatest = fragments.extremes(code)[1]
+        found = np.flatnonzero(left & (code == greatest[fragments.pixel]))
+        # The first of doubles.
+        pixels, first = np.unique(fragments.pixel[found], return_index=True)
+        core[slot, pixels] = found[first]
+        left[found[first]] = False
+    return core, left
+
+
+def core_features(fragments, moments, heavy):
+    """What is left of a pixel without its nearest, its farthest and its heaviest fragments, as models/core.md says."""
+    pixel, size = fragments.pixel, len(fragments)
+    q, a, slope = core_steps(fragments)
+    core, in_tail = core_of(fragments, q, a, slope, heavy + 2)
+    z = (2 * q + 1) / DEPTH_STEPS - 1
+    absorbance = (a << (23 - OCTAVE_BITS)) + int(LINEAR_BELOW.view(np.int32))
+    absorbance = (absorbance.astype(np.int32).view(np.float32) - LINEAR_BELOW).astype(np.float64)
+
+    # The pixel's own range, from the nearest to the farthest.
+    lone = np.where(core[1] < 0, core[0], core[1])
+    padded = lambda values, at: np.where(at < 0, 0, np.append(values, 0)[at])
+    center = ((padded(z, core[0]) + padded(z, lone)) / 2)[pixel]
+    half = np.maximum((padded(z, lone) - padded(z, core[0])) / 2, 1 / DEPTH_STEPS)[pixel]
+    x = np.clip((z - center) / half, -1, 1)
+
+    # The core in front, and whether a fragment is in the core: one that equals a fragment there takes itself for it.
+    front, in_core = np.zeros(size), np.zeros(size, bool)
+    for kept in core[:, pixel]:
+        there = kept >= 0
+        front += np.where(there & (padded(q, kept) < q), padded(absorbance, kept), 0)
+        in_core |= there & (padded(q, kept) == q) & (padded(a, kept) == a)
+    own = ~in_core & (a > 0)
+    weight = np.where(in_tail, absorbance, 0)
+    tail = [fragments.totals(weight * x**k)[pixel] - np.where(own, absorbance * x**k, 0) for k in range(moments + 1)]
+    others = np.maximum(tail[0], 0)
+    count = fragments.totals(in_tail.astype(np.float64))[pixel] - own
+    rows = [x, np.log2(np.maximum(count, 1)) / 3 - 1, np.log(others + 0.05), *described(tail, 1e-12)]
+
+    # Short tails: where one fragment lies, or two, follows from their moments, but for the rounding of sums in f32.
+    total = fragments.totals(absorbance)[pixel]
+    noise = total / np.maximum(others, 1e-12) * (1 + np.abs(center)) / half * 16 * np.finfo(np.float32).eps
+    step = 2 / DEPTH_STEPS / half
+    before = lambda place, off: np.clip((x - place - step / 4) / (step / 2 + off), 0, 1)
+    m = [np.clip(moment / np.maximum(others, 1e-12), -1, 1) for moment in tail]
+    share = before(m[1], noise)
+    if moments >= 3:
+        variance = np.maximum(m[2] - m[1] ** 2, 1e-9)
+        third = np.clip((m[3] - 3 * m[1] * m[2] + 2 * m[1] ** 3) / variance, -2, 2)
+        root = np.sqrt(third**2 + 4 * variance)
+        near, far = (third - root) / 2, (third + root) / 2
+        of_near = np.clip(far / root, 0, 1)
+        off = noise + noise / np.maximum(np.sqrt(variance), 1e-4)
+        two = of_near * before(m[1] + near, off) + (1 - of_near) * before(m[1] + far, off)
+        share = np.where(count == 2, two, share)
+    short = (count <= 1) | ((count == 2) & (moments >= 3))
+
+    known = np.where(short, np.exp(-front - others * np.where(count > 0, share, 0)), np.nan)
+    at_end = (q >= padded(q, lone)[pixel]) & (count > 0)
+    known[at_end] = np.exp(-front - others)[at_end]
+    known[(core[0][pixel] < 0) | (q <= padded(q, core[0])[pixel])] = 1.0
+    return np.stack(rows, axis=1).astype(np.float32), known, front
 
 
 # Name, function, and number of moments.
@@ -280,10 +396,14 @@ FEATURE_SETS = {
     "recentred-6": (recentred_features, 6),
     "recentred-8": (recentred_features, 8),
 }
+# core-K-M: K heavy fragments besides both ends, and M moments of the tail.
+for heavy, moments in ((heavy, moments) for heavy in range(9) for moments in range(1, 7)):
+    FEATURE_SETS[f"core-{heavy}-{moments}"] = (functools.partial(core_features, heavy=heavy), moments)
 
 
 def features(model, fragments):
-    """Features of every fragment, f32 [F, W], and the answers that need no network (NaN where one is needed)."""
+    """Features of every fragment, f32 [F, W]; the answers that need no network, NaN where one is needed; and the
+    absorbance in front that the network's answer does not hold: T = exp(-front) times that answer."""
     function, moments = FEATURE_SETS[model.feature_set]
     return function(fragments, moments)
 
@@ -327,9 +447,9 @@ def answers(model, rows, dtype=np.float64, device=None):
 
 def transmittance(model, fragments, device=None):
     """The answer to every fragment, f64 [F]: exact where no network is needed, the network's elsewhere."""
-    rows, known = features(model, fragments)
+    rows, known, front = features(model, fragments)
     asked = np.isnan(known)
-    known[asked] = answers(model, rows[asked], device=device)
+    known[asked] = np.exp(-front[asked]) * answers(model, rows[asked], device=device)
     return known
 
 
@@ -337,7 +457,7 @@ def transmittance(model, fragments, device=None):
 
 
 def compare(name, found, expected, tolerance):
-    """True where both have the same length, hold something, are finite, and differ nowhere by more than the tolerance."""
+    """True where both have the same length, hold something, are finite, and differ by at most the tolerance."""
     found, expected = np.asarray(found, np.float64), np.asarray(expected, np.float64)
     if found.shape != expected.shape or found.size == 0:
         print(f"FAILED {name}: shapes {found.shape} and {expected.shape}")
@@ -350,7 +470,8 @@ def compare(name, found, expected, tolerance):
 
 
 def compare_predicted(model, predicted, expected):
-    """True where `nmt predict` agrees. It rounds sums to f32 as a renderer does, which thin pixels magnify; sums of `paper` are in f64."""
+    """True where `nmt predict` agrees. It rounds sums to f32 as a renderer does, which thin pixels magnify; sums of
+    `paper` are in f64."""
     if model.output != "absorbance-share":
         return compare("nmt predict", predicted, expected, 5e-5)
     if predicted.shape != expected.shape or predicted.size == 0 or not np.all(np.isfinite(predicted)):
@@ -362,7 +483,9 @@ def compare_predicted(model, predicted, expected):
     most, share = off[int(0.99 * len(off))], np.mean(off > 0.02)
     good = bool(most <= bar and share <= rare)
     word = "ok" if good else "FAILED"
-    print(f"{word} nmt predict: 99 % within {most:.1e} (at most {bar:.0e}), {share:.1e} beyond 0.02 (at most {rare:.0e})")
+    print(
+        f"{word} nmt predict: 99 % within {most:.1e} (at most {bar:.0e}), {share:.1e} beyond 0.02 (at most {rare:.0e})"
+    )
     return good
 
 
@@ -389,15 +512,15 @@ def compare_dataset(folder, fragments, rows, asked, exact):
 
 def check(arguments):
     model, fragments = read_model(arguments.model), read_fragments(arguments.fragments)
-    rows, known = features(model, fragments)
+    rows, known, front = features(model, fragments)
     asked = np.isnan(known)
     rows = np.ascontiguousarray(rows[asked])
     reference, single = (answers(model, rows, dtype) for dtype in (np.float64, np.float32))
-    known[asked] = reference
+    known[asked] = np.exp(-front[asked]) * reference
     exact = exact_transmittance(fragments)
     print(
-        f"{model.name}, {'-'.join(map(str, model.sizes))}: {len(fragments)} fragments, {np.sum(asked)} need the network, "
-        f"T-MSE {np.mean((known - exact) ** 2):.4e}"
+        f"{model.name}, {'-'.join(map(str, model.sizes))}: {len(fragments)} fragments, {np.sum(asked)} need the "
+        f"network, T-MSE {np.mean((known - exact) ** 2):.4e}"
     )
     good = compare("f32 forward against f64", single, reference, 3e-5)
     order = [1, 0, *range(2, rows.shape[1])]
@@ -409,6 +532,8 @@ def check(arguments):
         good &= compare_predicted(model, np.load(arguments.predicted), known)
     if arguments.onnx:
         good &= compare_onnx(model, arguments.onnx, rows, reference)
+    if arguments.dataset and model.feature_set.startswith("core-"):
+        raise InputError(f"datasets of {model.feature_set} hold fragments chosen at random, so none can be compared")
     if arguments.dataset:
         good &= compare_dataset(arguments.dataset, fragments, rows, asked, exact)
     return 0 if good else 1

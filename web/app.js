@@ -234,7 +234,9 @@ function showMeasurements() {
     const mean = now.covered ? now.fragments / now.covered : 0;
     facts.push(["layers ", `<b>${mean.toFixed(1)}</b> mean, <b>${now.most}</b> most`, "more"]);
     if (method(state.method).kind !== "lists") facts.push(["error ", `<b>${power(now.mse)}</b>`]);
-    if (now.seconds != null) facts.push(["GPU ", `<b>${milliseconds(now.seconds)} ms</b>`]);
+    // A program that draws on the CPU has no card's times.
+    const by = renderer.software ? "CPU" : "GPU";
+    if (now.seconds != null) facts.push([`${by} `, `<b>${milliseconds(now.seconds)} ms</b>`]);
     if (now.exactSeconds != null && method(state.method).kind !== "lists") {
       facts.push(["exact ", `${milliseconds(now.exactSeconds)} ms`, "more"]);
     }
@@ -273,8 +275,10 @@ function showState() {
   $("label-right").textContent = state.mode === "split" ? m.title : "";
   $("divider").style.left = `${100 * state.split}%`;
   $("divider").setAttribute("aria-valuenow", Math.round(100 * state.split));
-  $("label-left").style.left = `calc(${100 * state.split}% - 26px)`;
-  $("label-right").style.left = `calc(${100 * state.split}% + 26px)`;
+  // Beside the divider, and whole.
+  const [left, right] = ["label-left", "label-right"].map((id) => $(id).offsetWidth + 8);
+  $("label-left").style.left = `max(${100 * state.split}% - 26px, ${left}px)`;
+  $("label-right").style.left = `min(${100 * state.split}% + 26px, 100% - ${right}px)`;
   $("canvas").classList.toggle("list", !!scene?.size);
   for (const row of $("methods").tBodies[0].rows) {
     const { reason } = renderer.support(row.dataset.name);

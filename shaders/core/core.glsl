@@ -28,8 +28,8 @@ precision highp int;
 #endif
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
-float[7] nmt_features(float x, float count, float ln_b0, float tail[4]) {
-    return float[7](x, count, ln_b0, tail[0], tail[1], tail[2], tail[3]);
+mat2x4 nmt_features(float x, float count, float ln_b0, vec4 tail) {
+    return mat2x4(vec4(x, count, ln_b0, tail.x), vec4(tail.yzw, 0.0));
 }
 
 const mat4 NMT_W1[16] = mat4[16](
@@ -99,9 +99,9 @@ const vec4 NMT_W3[4] = vec4[4](
 const float NMT_B3 = -0.5558889;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(float f[7]) {
-    vec4 h0_0 = vec4(f[0], f[1], f[2], f[3]);
-    vec4 h0_1 = vec4(f[4], f[5], f[6], 1.0);
+float nmt_share(mat2x4 f) {
+    vec4 h0_0 = f[0];
+    vec4 h0_1 = vec4(f[1].xyz, 1.0);
     vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
     vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
     vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
@@ -119,8 +119,8 @@ float nmt_share(float f[7]) {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float absorbance = max(exp(min(f[2], 40.0)) - 0.05, 0.0);
+float nmt_transmittance(mat2x4 f) {
+    float absorbance = max(exp(min(f[0].z, 40.0)) - 0.05, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 

@@ -1,6 +1,6 @@
 // Neural moment transparency: network 'core', 7-32-16-1, 752 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
-// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].
+// HLSL, shader model 5 and later.
 //
 // Features, set 'core-4-4', in this order: x, count, ln_b0, mean, spread, inner_mean, inner_spread.
 // Pass 1 rounds a fragment to a depth step q and an absorbance step a (nmt_core_steps), which stand for moment
@@ -24,14 +24,8 @@
 #define NMT_INCLUDED_CORE
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
-void nmt_features(float x, float count, float ln_b0, float tail[4], out float result[7]) {
-    result[0] = x;
-    result[1] = count;
-    result[2] = ln_b0;
-    result[3] = tail[0];
-    result[4] = tail[1];
-    result[5] = tail[2];
-    result[6] = tail[3];
+float2x4 nmt_features(float x, float count, float ln_b0, float4 tail) {
+    return float2x4(float4(x, count, ln_b0, tail.x), float4(tail.yzw, 0.0));
 }
 
 static const float4x4 NMT_W1[16] = {
@@ -101,9 +95,9 @@ static const float4 NMT_W3[4] = {
 static const float NMT_B3 = -0.5558889f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(float f[7]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
-    float4 h0_1 = float4(f[4], f[5], f[6], 1.0f);
+float nmt_share(float2x4 f) {
+    float4 h0_0 = f[0];
+    float4 h0_1 = float4(f[1].xyz, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[2]) + mul(h0_1, NMT_W1[3]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[4]) + mul(h0_1, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -121,8 +115,8 @@ float nmt_share(float f[7]) {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+float nmt_transmittance(float2x4 f) {
+    float absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 

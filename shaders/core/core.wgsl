@@ -20,8 +20,8 @@
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 // The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
-fn nmt_features(x: f32, count: f32, ln_b0: f32, tail: array<f32, 4>) -> array<f32, 7> {
-    return array<f32, 7>(x, count, ln_b0, tail[0], tail[1], tail[2], tail[3]);
+fn nmt_features(x: f32, count: f32, ln_b0: f32, tail: vec4<f32>) -> mat2x4<f32> {
+    return mat2x4<f32>(vec4<f32>(x, count, ln_b0, tail.x), vec4<f32>(tail.yzw, 0.0));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 16>(
@@ -91,9 +91,9 @@ const NMT_W3 = array<vec4<f32>, 4>(
 const NMT_B3: f32 = -0.5558889f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-fn nmt_share(f: array<f32, 7>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], f[3]);
-    let h0_1 = vec4<f32>(f[4], f[5], f[6], 1.0f);
+fn nmt_share(f: mat2x4<f32>) -> f32 {
+    let h0_0 = f[0];
+    let h0_1 = vec4<f32>(f[1].xyz, 1.0f);
     let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4<f32>(0.0f));
@@ -111,7 +111,7 @@ fn nmt_share(f: array<f32, 7>) -> f32 {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: array<f32, 7>) -> f32 {
-    let absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+fn nmt_transmittance(f: mat2x4<f32>) -> f32 {
+    let absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }

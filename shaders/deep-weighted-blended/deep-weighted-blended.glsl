@@ -20,9 +20,9 @@ precision highp int;
 
 // The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, number of
 // fragments) and the least and greatest view depth of the scene.
-float[3] nmt_features(float view_z, float v_min, float v_max, float alpha_sum, float n) {
+vec3 nmt_features(float view_z, float v_min, float v_max, float alpha_sum, float n) {
     float depth = (v_max > v_min ? clamp((view_z - v_min) / max(v_max - v_min, 1e-30), 0.0, 1.0) : 0.0);
-    return float[3](depth, alpha_sum, n);
+    return vec3(depth, alpha_sum, n);
 }
 
 const mat4 NMT_W1[3] = mat4[3](
@@ -45,8 +45,8 @@ const vec4 NMT_W3[2] = vec4[2](
 const float NMT_B3 = 0.052733794;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[3]) {
-    vec4 h0_0 = vec4(f[0], f[1], f[2], 1.0);
+float nmt_transmittance(vec3 f) {
+    vec4 h0_0 = vec4(f, 1.0);
     vec4 h1_0 = max(NMT_W1[0] * h0_0, vec4(0.0));
     vec4 h1_1 = max(NMT_W1[1] * h0_0, vec4(0.0));
     vec4 h1_2 = max(NMT_W1[2] * h0_0, vec4(0.0)) + vec4(0.0, 0.0, 1.0, 0.0);

@@ -1,6 +1,6 @@
 // Neural moment transparency: network 'deep-weighted-blended', 3-10-8-1, 118 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
-// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].
+// HLSL, shader model 5 and later.
 //
 // Features, set 'deep-weighted-blended', in this order: depth, alpha_sum, n.
 // v is distance along the view direction; v_min and v_max are its extremes over the whole scene.
@@ -16,11 +16,9 @@
 
 // The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, number of
 // fragments) and the least and greatest view depth of the scene.
-void nmt_features(float view_z, float v_min, float v_max, float alpha_sum, float n, out float result[3]) {
+float3 nmt_features(float view_z, float v_min, float v_max, float alpha_sum, float n) {
     float depth = (v_max > v_min ? clamp((view_z - v_min) / max(v_max - v_min, 1e-30), 0.0, 1.0) : 0.0);
-    result[0] = depth;
-    result[1] = alpha_sum;
-    result[2] = n;
+    return float3(depth, alpha_sum, n);
 }
 
 static const float4x4 NMT_W1[3] = {
@@ -43,8 +41,8 @@ static const float4 NMT_W3[2] = {
 static const float NMT_B3 = 0.052733794f;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[3]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], 1.0f);
+float nmt_transmittance(float3 f) {
+    float4 h0_0 = float4(f, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[2]), float4(0.0f, 0.0f, 0.0f, 0.0f)) + float4(0.0f, 0.0f, 1.0f, 0.0f);

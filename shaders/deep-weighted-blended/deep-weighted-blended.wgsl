@@ -12,9 +12,9 @@
 
 // The features of a fragment at view depth view_z, from what pass 1 left in its pixel (sum of alpha, number of
 // fragments) and the least and greatest view depth of the scene.
-fn nmt_features(view_z: f32, v_min: f32, v_max: f32, alpha_sum: f32, n: f32) -> array<f32, 3> {
+fn nmt_features(view_z: f32, v_min: f32, v_max: f32, alpha_sum: f32, n: f32) -> vec3<f32> {
     let depth = select(0.0, clamp((view_z - v_min) / max(v_max - v_min, 1e-30), 0.0, 1.0), v_max > v_min);
-    return array<f32, 3>(depth, alpha_sum, n);
+    return vec3<f32>(depth, alpha_sum, n);
 }
 
 const NMT_W1 = array<mat4x4<f32>, 3>(
@@ -37,8 +37,8 @@ const NMT_W3 = array<vec4<f32>, 2>(
 const NMT_B3: f32 = 0.052733794f;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: array<f32, 3>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], 1.0f);
+fn nmt_transmittance(f: vec3<f32>) -> f32 {
+    let h0_0 = vec4<f32>(f, 1.0f);
     let h1_0 = max(NMT_W1[0] * h0_0, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[1] * h0_0, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[2] * h0_0, vec4<f32>(0.0f)) + vec4<f32>(0.0f, 0.0f, 1.0f, 0.0f);

@@ -43,26 +43,26 @@ fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
 const NMT_ROUNDING: f32 = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 6> {
+fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32> {
     let moment1 = absorbance * z;
     let moment2 = moment1 * z;
     let moment3 = moment2 * z;
     let moment4 = moment3 * z;
     let moment5 = moment4 * z;
     let moment6 = moment5 * z;
-    return array<f32, 6>(moment1, moment2, moment3, moment4, moment5, moment6);
+    return mat2x4<f32>(vec4<f32>(moment1, moment2, moment3, moment4), vec4<f32>(moment5, moment6, 0.0, 0.0));
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: array<f32, 6>) -> array<f32, 6> {
+fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: mat2x4<f32>) -> mat2x4<f32> {
     let own = nmt_moments(z, absorbance);
-    let m1 = (b[0] - own[0]) * per_b0;
-    let m2 = (b[1] - own[1]) * per_b0;
-    let m3 = (b[2] - own[2]) * per_b0;
-    let m4 = (b[3] - own[3]) * per_b0;
-    let m5 = (b[4] - own[4]) * per_b0;
-    let m6 = (b[5] - own[5]) * per_b0;
+    let m1 = (b[0].x - own[0].x) * per_b0;
+    let m2 = (b[0].y - own[0].y) * per_b0;
+    let m3 = (b[0].z - own[0].z) * per_b0;
+    let m4 = (b[0].w - own[0].w) * per_b0;
+    let m5 = (b[1].x - own[1].x) * per_b0;
+    let m6 = (b[1].y - own[1].y) * per_b0;
     // Moments of z - c, one factor at a time.
     let m6_2 = m6 - c * m5;
     let m5_2 = m5 - c * m4;
@@ -88,9 +88,9 @@ fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f3
     let per_h2 = per_h * per_h;
     let per_h3 = per_h2 * per_h;
     let per_h4 = per_h2 * per_h2;
-    return array<f32, 6>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
-        1.0), clamp(m4_5 * per_h4, -1.0, 1.0), clamp(m5_6 * per_h4 * per_h, -1.0, 1.0), clamp(m6_7 * per_h4 * per_h2,
-        -1.0, 1.0));
+    return mat2x4<f32>(vec4<f32>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4
+        * per_h3, -1.0, 1.0), clamp(m4_5 * per_h4, -1.0, 1.0)), vec4<f32>(clamp(m5_6 * per_h4 * per_h, -1.0, 1.0),
+        clamp(m6_7 * per_h4 * per_h2, -1.0, 1.0), 0.0, 0.0));
 }
 
 // Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
@@ -122,7 +122,7 @@ fn nmt_share_of_four(x: f32, mean: f32, spread: f32, u: f32, transition_width: f
 // and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b6.
 // The result holds the 9 features, then T where it is known without the network, else -1. No branch is taken.
 fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32,
-    n: f32, b0: f32, b: array<f32, 6>) -> array<f32, 10> {
+    n: f32, b0: f32, b: mat2x4<f32>) -> mat3x4<f32> {
     let c = 0.5 * (z_nearest + z_farthest);
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
@@ -132,18 +132,18 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
     let noise1 = moment_noise * (0.12 * sqrt(n));
     let per_n = 1.0 / n;
-    let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+    let mean0 = nmt_shrink_to_prior(m[0].x, 0.0, noise1, 0.22 + 0.7 * per_n);
     let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01 > (farthest
         - nearest) / nearest);
     let further = noise_growth * 0.87;
     let noise2 = noise1 * further;
     let noise3 = noise2 * further;
     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+    let raw_spread0 = clamp((m[0].y - mean0 * mean0) / most0, 0.0, 1.0);
     let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5 * per_n);
     // The same of (1 - x^2) times the measure, which does not hold the ends.
-    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+    let per_mass1 = 1.0 / max(1.0 - m[0].y, 1e-6);
+    let raw_mean1 = clamp((m[0].x - m[0].z) * per_mass1, -1.0, 1.0);
     let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
     let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
     let noise = noise3 * per_mass1;
@@ -159,18 +159,18 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     front = select(front, 0.0, v == nearest);
     let known = select(-1.0, min(exp(-front), 1.0), front >= 0.0);
     let most1 = max(1.0 - mean1 * mean1, 1e-6);
-    let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+    let raw_square1 = clamp(((m[0].y - m[0].w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
     let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
     let square0 = spread0 * spread0;
     let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0
         / (1.0 + spread0 + spread0), 0.0, 1.0);
     let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further * per_mass1 / most1,
         (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-    let q0 = 1.0 - m[1];
-    let q1 = m[0] - m[2];
-    let q2 = m[1] - m[3];
-    let q3 = m[2] - m[4];
-    let q4 = m[3] - m[5];
+    let q0 = 1.0 - m[0].y;
+    let q1 = m[0].x - m[0].z;
+    let q2 = m[0].y - m[0].w;
+    let q3 = m[0].z - m[1].x;
+    let q4 = m[0].w - m[1].y;
     let q0_2 = q0 - q2;
     let q1_2 = q1 - q3;
     let q2_2 = q2 - q4;
@@ -182,8 +182,8 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     let rounded_2 = noise_2 * noise_growth * per_mass2;
     let spread2 = 0.5 + (sqrt(clamp((q2_2 * per_mass2 - raw_mean2 * raw_mean2) / max(1.0 - raw_mean2 * raw_mean2,
         1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + rounded_2 * rounded_2));
-    return array<f32, 10>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0, mean1, spread1, mean2,
-        spread2, known);
+    return mat3x4<f32>(vec4<f32>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0), vec4<f32>(spread0, mean1,
+        spread1, mean2), vec4<f32>(spread2, known, 0.0, 0.0));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 24>(
@@ -261,10 +261,10 @@ const NMT_W3 = array<vec4<f32>, 4>(
 const NMT_B3: f32 = -0.117446944f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-fn nmt_share(f: array<f32, 9>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], f[3]);
-    let h0_1 = vec4<f32>(f[4], f[5], f[6], f[7]);
-    let h0_2 = vec4<f32>(f[8], 1.0f, 0.0f, 0.0f);
+fn nmt_share(f: mat3x4<f32>) -> f32 {
+    let h0_0 = f[0];
+    let h0_1 = f[1];
+    let h0_2 = vec4<f32>(f[2].x, 1.0f, 0.0f, 0.0f);
     let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1 + NMT_W1[2] * h0_2, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[3] * h0_0 + NMT_W1[4] * h0_1 + NMT_W1[5] * h0_2, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1 + NMT_W1[8] * h0_2, vec4<f32>(0.0f));
@@ -282,15 +282,15 @@ fn nmt_share(f: array<f32, 9>) -> f32 {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: array<f32, 9>) -> f32 {
-    let absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+fn nmt_transmittance(f: mat3x4<f32>) -> f32 {
+    let absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
-    z_farthest: f32, n: f32, b0: f32, b: array<f32, 6>) -> f32 {
+    z_farthest: f32, n: f32, b0: f32, b: mat2x4<f32>) -> f32 {
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = 0.0;
     if (v != nearest) {
@@ -305,7 +305,7 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                 let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 let noise1 = moment_noise * (0.12 * sqrt(n));
                 let per_n = 1.0 / n;
-                let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                let mean0 = nmt_shrink_to_prior(m[0].x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01
@@ -314,12 +314,12 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     let noise2 = noise1 * further;
                     let noise3 = noise2 * further;
                     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    let raw_spread0 = clamp((m[0].y - mean0 * mean0) / most0, 0.0, 1.0);
                     let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    let per_mass1 = 1.0 / max(1.0 - m[0].y, 1e-6);
+                    let raw_mean1 = clamp((m[0].x - m[0].z) * per_mass1, -1.0, 1.0);
                     let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     let noise = noise3 * per_mass1;
@@ -329,18 +329,18 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         let most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        let raw_square1 = clamp(((m[0].y - m[0].w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         let square0 = spread0 * spread0;
                         let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        let q0 = 1.0 - m[1];
-                        let q1 = m[0] - m[2];
-                        let q2 = m[1] - m[3];
-                        let q3 = m[2] - m[4];
-                        let q4 = m[3] - m[5];
+                        let q0 = 1.0 - m[0].y;
+                        let q1 = m[0].x - m[0].z;
+                        let q2 = m[0].y - m[0].w;
+                        let q3 = m[0].z - m[1].x;
+                        let q4 = m[0].w - m[1].y;
                         let q0_2 = q0 - q2;
                         let q1_2 = q1 - q3;
                         let q2_2 = q2 - q4;
@@ -352,8 +352,9 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                         let rounded_2 = noise_2 * noise_growth * per_mass2;
                         let spread2 = 0.5 + (sqrt(clamp((q2_2 * per_mass2 - raw_mean2 * raw_mean2) / max(1.0
                             - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + rounded_2 * rounded_2));
-                        front = others * nmt_share(array<f32, 9>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
-                            mean0, spread0, mean1, spread1, mean2, spread2));
+                        front = others * nmt_share(mat3x4<f32>(vec4<f32>(x, log(n) * 0.48089835 - 1.0, log(others
+                            + 0.05), mean0), vec4<f32>(spread0, mean1, spread1, mean2), vec4<f32>(spread2, 0.0, 0.0,
+                            0.0)));
                     }
                 }
             }
@@ -386,8 +387,7 @@ fn nmt_first_hidden_depth(b0: f32, b1: f32, b2: f32) -> f32 {
 // The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments.
 // Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies there,
 // rounding included.
-fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32,
-    6>) -> f32 {
+fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: mat2x4<f32>) -> f32 {
     let c = 0.5 * (z_nearest + z_farthest);
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
@@ -400,15 +400,15 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     let end = 1.0 + off;
     let x = clamp((z - c) * per_h, -1.0, 1.0) - off;
     // Cantelli's inequality.
-    let ahead = x - m[0];
-    let r1 = max(m[0] - max(m[1] - m[0] * m[0], 0.0) / max(ahead, 1e-30), -1e6);
+    let ahead = x - m[0].x;
+    let r1 = max(m[0].x - max(m[0].y - m[0].x * m[0].x, 0.0) / max(ahead, 1e-30), -1e6);
     let growth1 = noise_growth + abs(r1);
     let gap1 = x - r1;
-    let share1 = (m[1] - 2.0 * r1 * m[0] + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
+    let share1 = (m[0].y - 2.0 * r1 * m[0].x + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
     // The quartic.
-    let w1 = m[0] - m[2];
-    let below = w1 - x * (1.0 - m[1]);
-    let inner = (m[1] - m[3] - x * w1) / select(below, 1e-30, 1e-30 > abs(below));
+    let w1 = m[0].x - m[0].z;
+    let below = w1 - x * (1.0 - m[0].y);
+    let inner = (m[0].y - m[0].w - x * w1) / select(below, 1e-30, 1e-30 > abs(below));
     let outer = max(r1, -1.0);
     let inside = select(outer, inner, inner >= -end);
     let r = select(outer, inside, x > inside);
@@ -420,8 +420,8 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     let p1 = r * r - 2.0 * r * end;
     let p2 = end - 2.0 * r;
     let lift = 1.0 + gamma * x;
-    let value = p0 * lift + (p1 * lift - gamma * p0) * m[0] + (p2 * lift - gamma * p1) * m[1] + (lift - gamma * p2)
-        * m[2] - gamma * m[3];
+    let value = p0 * lift + (p1 * lift - gamma * p0) * m[0].x + (p2 * lift - gamma * p1) * m[0].y + (lift - gamma
+        * p2) * m[0].z - gamma * m[0].w;
     let growth2 = noise_growth + abs(r);
     let lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     let share2 = (value + lost) * per_value;
@@ -434,7 +434,7 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
 // Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint
 // pixels and hidden fragments. Pixels of up to four fragments have forms of their own.
 fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
-    z_farthest: f32, n: f32, b0: f32, b: array<f32, 6>) -> f32 {
+    z_farthest: f32, n: f32, b0: f32, b: mat2x4<f32>) -> f32 {
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = -1.0;
     if (n > 4.0) {
@@ -445,7 +445,7 @@ fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, fart
                         front = 0.5 * others;
                     }
                     if (NMT_HIDDEN > 0.0) {
-                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                        if (z >= nmt_first_hidden_depth(b0, b[0].x, b[0].y)) {
                             if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
                                 front = others;
                             }
@@ -478,30 +478,25 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0], b[1], b[2]), vec4<f32>(b[3], b[4], b[5], 1.0), vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b[0].xyz), vec4<f32>(b[0].w, b[1].xy, 1.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
     let nearest = -range.x;
-    let farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.w, sums0.x, array<f32, 6>(sums0.y, sums0.z, sums0.w, sums1.x, sums1.y, sums1.z)
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
-fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
+fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>,
+    range: vec4<f32>) -> f32 {
     let nearest = -range.x;
-    let farthest = range.y;
-    return nmt_visible_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.w, sums0.x, array<f32, 6>(sums0.y, sums0.z, sums0.w, sums1.x, sums1.y, sums1.z)
-    );
+    return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -510,5 +505,5 @@ fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sum
 fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>) -> vec4<f32> {
     let behind = exp(-sums0.x);
     let scale = select(0.0, (1.0 - behind) / max(weighted.w, 1e-37), weighted.w > 0.0);
-    return vec4<f32>(scale * weighted.xyz, behind);
+    return vec4<f32>(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }

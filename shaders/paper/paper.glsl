@@ -43,9 +43,9 @@ vec4 nmt_moments(float w, float absorbance) {
 
 // Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
-float[7] nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
+mat2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    return float[7](d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w);
+    return mat2x4(vec4(d, n, b0, b1234.x), vec4(b1234.yzw, 0.0));
 }
 
 const mat4 NMT_W1[16] = mat4[16](
@@ -115,9 +115,9 @@ const vec4 NMT_W3[4] = vec4[4](
 const float NMT_B3 = -0.06779878;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    vec4 h0_0 = vec4(f[0], f[1], f[2], f[3]);
-    vec4 h0_1 = vec4(f[4], f[5], f[6], 1.0);
+float nmt_transmittance(mat2x4 f) {
+    vec4 h0_0 = f[0];
+    vec4 h0_1 = vec4(f[1].xyz, 1.0);
     vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
     vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
     vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
@@ -148,14 +148,13 @@ struct NmtSums {
 NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     vec4 b = nmt_moments(w, absorbance);
-    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], 1.0, 0.0, 0.0), vec4(-w, w, 0.0, 0.0));
+    return NmtSums(vec4(absorbance, b.xyz), vec4(b.w, 1.0, 0.0, 0.0), vec4(-w, w, 0.0, 0.0));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float w, vec4 sums0, vec4 sums1, vec4 range) {
-    vec4 b = vec4(sums0.y, sums0.z, sums0.w, sums1.x);
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, b));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4(sums0.yzw, sums1.x)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -163,8 +162,8 @@ float nmt_pass2(float w, vec4 sums0, vec4 sums1, vec4 range) {
 // alpha.
 vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return vec4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return vec4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 #endif

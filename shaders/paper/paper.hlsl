@@ -1,6 +1,6 @@
 // Neural moment transparency: network 'paper', 7-32-16-1, 752 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
-// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].
+// HLSL, shader model 5 and later.
 //
 // Features, set 'paper', in this order: d, n, b0, b1, b2, b3, b4.
 // w is window depth in [0, 1], as gl_FragCoord.z holds it; moments are taken of z = 2w - 1.
@@ -39,15 +39,9 @@ float4 nmt_moments(float w, float absorbance) {
 
 // Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
-void nmt_features(float w, float w_min, float w_max, float n, float b0, float4 b1234, out float result[7]) {
+float2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, float4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    result[0] = d;
-    result[1] = n;
-    result[2] = b0;
-    result[3] = b1234.x;
-    result[4] = b1234.y;
-    result[5] = b1234.z;
-    result[6] = b1234.w;
+    return float2x4(float4(d, n, b0, b1234.x), float4(b1234.yzw, 0.0));
 }
 
 static const float4x4 NMT_W1[16] = {
@@ -117,9 +111,9 @@ static const float4 NMT_W3[4] = {
 static const float NMT_B3 = -0.06779878f;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
-    float4 h0_1 = float4(f[4], f[5], f[6], 1.0f);
+float nmt_transmittance(float2x4 f) {
+    float4 h0_0 = f[0];
+    float4 h0_1 = float4(f[1].xyz, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[2]) + mul(h0_1, NMT_W1[3]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[4]) + mul(h0_1, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -150,20 +144,17 @@ struct NmtSums {
 NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float4 b = nmt_moments(w, absorbance);
-    NmtSums sums;
-    sums.sums0 = float4(absorbance, b[0], b[1], b[2]);
-    sums.sums1 = float4(b[3], 1.0, 0.0, 0.0);
-    sums.range = float4(-w, w, 0.0, 0.0);
-    return sums;
+    NmtSums result;
+    result.sums0 = float4(absorbance, b.xyz);
+    result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
+    result.range = float4(-w, w, 0.0, 0.0);
+    return result;
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float w, float4 sums0, float4 sums1, float4 range) {
-    float4 b = float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float f[7];
-    nmt_features(w, -range.x, range.y, sums1.y, sums0.x, b, f);
-    return nmt_transmittance(f);
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, float4(sums0.yzw, sums1.x)));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -171,8 +162,8 @@ float nmt_pass2(float w, float4 sums0, float4 sums1, float4 range) {
 // alpha.
 float4 nmt_resolve(float4 weighted, float4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return float4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return float4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 #endif

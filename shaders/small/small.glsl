@@ -51,22 +51,22 @@ float nmt_moment_depth(float v, float v0, float v1) {
 const float NMT_ROUNDING = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-float[4] nmt_moments(float z, float absorbance) {
+vec4 nmt_moments(float z, float absorbance) {
     float moment1 = absorbance * z;
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
-    return float[4](moment1, moment2, moment3, moment4);
+    return vec4(moment1, moment2, moment3, moment4);
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-float[4] nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float b[4]) {
-    float own[4] = nmt_moments(z, absorbance);
-    float m1 = (b[0] - own[0]) * per_b0;
-    float m2 = (b[1] - own[1]) * per_b0;
-    float m3 = (b[2] - own[2]) * per_b0;
-    float m4 = (b[3] - own[3]) * per_b0;
+vec4 nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, vec4 b) {
+    vec4 own = nmt_moments(z, absorbance);
+    float m1 = (b.x - own.x) * per_b0;
+    float m2 = (b.y - own.y) * per_b0;
+    float m3 = (b.z - own.z) * per_b0;
+    float m4 = (b.w - own.w) * per_b0;
     // Moments of z - c, one factor at a time.
     float m4_2 = m4 - c * m3;
     float m3_2 = m3 - c * m2;
@@ -81,8 +81,8 @@ float[4] nmt_recentred_moments(float z, float absorbance, float c, float per_h, 
     float per_h2 = per_h * per_h;
     float per_h3 = per_h2 * per_h;
     float per_h4 = per_h2 * per_h2;
-    return float[4](clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
-        1.0), clamp(m4_5 * per_h4, -1.0, 1.0));
+    return vec4(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0, 1.0),
+        clamp(m4_5 * per_h4, -1.0, 1.0));
 }
 
 // Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
@@ -113,29 +113,29 @@ float nmt_share_of_four(float x, float mean, float spread, float u, float transi
 // Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest
 // and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b4.
 // The result holds the 7 features, then T where it is known without the network, else -1. No branch is taken.
-float[8] nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float
-    z_farthest, float n, float b0, float b[4]) {
+mat2x4 nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float
+    z_farthest, float n, float b0, vec4 b) {
     float c = 0.5 * (z_nearest + z_farthest);
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
     float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-    float m[4] = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+    vec4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
     float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
     float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
     float noise1 = moment_noise * (0.12 * sqrt(n));
     float per_n = 1.0 / n;
-    float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+    float mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
     float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest) : clamp((z - c)
         * per_h, -1.0, 1.0));
     float further = noise_growth * 0.87;
     float noise2 = noise1 * further;
     float noise3 = noise2 * further;
     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+    float raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
     float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5 * per_n);
     // The same of (1 - x^2) times the measure, which does not hold the ends.
-    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+    float per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+    float raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
     float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
     float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
     float noise = noise3 * per_mass1;
@@ -151,14 +151,14 @@ float[8] nmt_recentred(float v, float z, float absorbance, float nearest, float 
     front = (v == nearest ? 0.0 : front);
     float known = (front >= 0.0 ? min(exp(-front), 1.0) : -1.0);
     float most1 = max(1.0 - mean1 * mean1, 1e-6);
-    float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+    float raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
     float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
     float square0 = spread0 * spread0;
     float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0
         / (1.0 + spread0 + spread0), 0.0, 1.0);
     float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further * per_mass1 / most1,
         (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-    return float[8](x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0, mean1, spread1, known);
+    return mat2x4(vec4(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0), vec4(spread0, mean1, spread1, known));
 }
 
 const mat4 NMT_W1[8] = mat4[8](
@@ -192,9 +192,9 @@ const vec4 NMT_W3[2] = vec4[2](
 const float NMT_B3 = -0.09972816;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(float f[7]) {
-    vec4 h0_0 = vec4(f[0], f[1], f[2], f[3]);
-    vec4 h0_1 = vec4(f[4], f[5], f[6], 1.0);
+float nmt_share(mat2x4 f) {
+    vec4 h0_0 = f[0];
+    vec4 h0_1 = vec4(f[1].xyz, 1.0);
     vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
     vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
     vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
@@ -206,15 +206,15 @@ float nmt_share(float f[7]) {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float absorbance = max(exp(min(f[2], 40.0)) - 0.05, 0.0);
+float nmt_transmittance(mat2x4 f) {
+    float absorbance = max(exp(min(f[0].z, 40.0)) - 0.05, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
-    float z_farthest, float n, float b0, float b[4]) {
+    float z_farthest, float n, float b0, vec4 b) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = 0.0;
     if (v != nearest) {
@@ -224,12 +224,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                 float c = 0.5 * (z_nearest + z_farthest);
                 float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
                 float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-                float m[4] = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+                vec4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
                 float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
                 float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 float noise1 = moment_noise * (0.12 * sqrt(n));
                 float per_n = 1.0 / n;
-                float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                float mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest)
@@ -238,12 +238,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     float noise2 = noise1 * further;
                     float noise3 = noise2 * further;
                     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    float raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
                     float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    float per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+                    float raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
                     float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     float noise = noise3 * per_mass1;
@@ -253,15 +253,15 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         float most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        float raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         float square0 = spread0 * spread0;
                         float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        front = others * nmt_share(float[7](x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0,
-                            spread0, mean1, spread1));
+                        front = others * nmt_share(mat2x4(vec4(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
+                            mean0), vec4(spread0, mean1, spread1, 0.0)));
                     }
                 }
             }
@@ -294,12 +294,12 @@ float nmt_first_hidden_depth(float b0, float b1, float b2) {
 // The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments.
 // Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies there,
 // rounding included.
-float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, vec4 b) {
     float c = 0.5 * (z_nearest + z_farthest);
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
     float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-    float m[4] = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
+    vec4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
     float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
     // What rounding may have done to moments and places.
     float unsure = (n + 16.0) * NMT_ROUNDING * b0 / max(others, 1e-30);
@@ -307,15 +307,15 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
     float end = 1.0 + off;
     float x = clamp((z - c) * per_h, -1.0, 1.0) - off;
     // Cantelli's inequality.
-    float ahead = x - m[0];
-    float r1 = max(m[0] - max(m[1] - m[0] * m[0], 0.0) / max(ahead, 1e-30), -1e6);
+    float ahead = x - m.x;
+    float r1 = max(m.x - max(m.y - m.x * m.x, 0.0) / max(ahead, 1e-30), -1e6);
     float growth1 = noise_growth + abs(r1);
     float gap1 = x - r1;
-    float share1 = (m[1] - 2.0 * r1 * m[0] + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
+    float share1 = (m.y - 2.0 * r1 * m.x + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
     // The quartic.
-    float w1 = m[0] - m[2];
-    float below = w1 - x * (1.0 - m[1]);
-    float inner = (m[1] - m[3] - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
+    float w1 = m.x - m.z;
+    float below = w1 - x * (1.0 - m.y);
+    float inner = (m.y - m.w - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
     float outer = max(r1, -1.0);
     float inside = (inner >= -end ? inner : outer);
     float r = (inside < x ? inside : outer);
@@ -327,8 +327,8 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
     float p1 = r * r - 2.0 * r * end;
     float p2 = end - 2.0 * r;
     float lift = 1.0 + gamma * x;
-    float value = p0 * lift + (p1 * lift - gamma * p0) * m[0] + (p2 * lift - gamma * p1) * m[1] + (lift - gamma
-        * p2) * m[2] - gamma * m[3];
+    float value = p0 * lift + (p1 * lift - gamma * p0) * m.x + (p2 * lift - gamma * p1) * m.y + (lift - gamma * p2)
+        * m.z - gamma * m.w;
     float growth2 = noise_growth + abs(r);
     float lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     float share2 = (value + lost) * per_value;
@@ -341,7 +341,7 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
 // Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint
 // pixels and hidden fragments. Pixels of up to four fragments have forms of their own.
 float nmt_visible_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
-    float z_farthest, float n, float b0, float b[4]) {
+    float z_farthest, float n, float b0, vec4 b) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = -1.0;
     if (n > 4.0) {
@@ -352,7 +352,7 @@ float nmt_visible_transmittance(float v, float z, float absorbance, float neares
                         front = 0.5 * others;
                     }
                     if (NMT_HIDDEN > 0.0) {
-                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                        if (z >= nmt_first_hidden_depth(b0, b.x, b.y)) {
                             if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
                                 front = others;
                             }
@@ -384,31 +384,25 @@ struct NmtSums {
 // the greatest v of the scene.
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
-    float b[4] = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
+    vec4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    return NmtSums(vec4(absorbance, b.xyz), vec4(b.w, 1.0, 0.0, 0.0), vec4(-v, v, 0.0, 0.0));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
     float nearest = -range.x;
-    float farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.yzw,
+        sums1.x));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
 float nmt_visible_pass2(float v, float v0, float v1, float alpha, vec4 sums0, vec4 sums1, vec4 range) {
     float nearest = -range.x;
-    float farthest = range.y;
-    return nmt_visible_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, float[4](sums0.y, sums0.z, sums0.w, sums1.x)
-    );
+    return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4(sums0.yzw,
+        sums1.x));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -416,8 +410,8 @@ float nmt_visible_pass2(float v, float v0, float v1, float alpha, vec4 sums0, ve
 // alpha.
 vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return vec4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return vec4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 #endif

@@ -1,6 +1,6 @@
 // Neural moment transparency: network 'small', 7-16-8-1, 248 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
-// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an out float[n].
+// HLSL, shader model 5 and later.
 //
 // Features, set 'recentred', in this order: x, count, ln_b0, mean, spread, inner_mean, inner_spread.
 // v is distance along the view direction and z = 2 ln(v/v0)/ln(v1/v0) - 1 moment depth, v0 and v1 the scene's least and greatest v;
@@ -47,27 +47,22 @@ float nmt_moment_depth(float v, float v0, float v1) {
 static const float NMT_ROUNDING = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-void nmt_moments(float z, float absorbance, out float result[4]) {
+float4 nmt_moments(float z, float absorbance) {
     float moment1 = absorbance * z;
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
-    result[0] = moment1;
-    result[1] = moment2;
-    result[2] = moment3;
-    result[3] = moment4;
+    return float4(moment1, moment2, moment3, moment4);
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-void nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float b[4], out float
-    result[4]) {
-    float own[4];
-    nmt_moments(z, absorbance, own);
-    float m1 = (b[0] - own[0]) * per_b0;
-    float m2 = (b[1] - own[1]) * per_b0;
-    float m3 = (b[2] - own[2]) * per_b0;
-    float m4 = (b[3] - own[3]) * per_b0;
+float4 nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float4 b) {
+    float4 own = nmt_moments(z, absorbance);
+    float m1 = (b.x - own.x) * per_b0;
+    float m2 = (b.y - own.y) * per_b0;
+    float m3 = (b.z - own.z) * per_b0;
+    float m4 = (b.w - own.w) * per_b0;
     // Moments of z - c, one factor at a time.
     float m4_2 = m4 - c * m3;
     float m3_2 = m3 - c * m2;
@@ -82,10 +77,8 @@ void nmt_recentred_moments(float z, float absorbance, float c, float per_h, floa
     float per_h2 = per_h * per_h;
     float per_h3 = per_h2 * per_h;
     float per_h4 = per_h2 * per_h2;
-    result[0] = clamp(m1_2 * per_h, -1.0, 1.0);
-    result[1] = clamp(m2_3 * per_h2, -1.0, 1.0);
-    result[2] = clamp(m3_4 * per_h3, -1.0, 1.0);
-    result[3] = clamp(m4_5 * per_h4, -1.0, 1.0);
+    return float4(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0, 1.0),
+        clamp(m4_5 * per_h4, -1.0, 1.0));
 }
 
 // Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
@@ -116,30 +109,29 @@ float nmt_share_of_four(float x, float mean, float spread, float u, float transi
 // Pass 2: what is known of a fragment at view depth v and moment depth z, from what pass 1 left in its pixel: nearest
 // and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b4.
 // The result holds the 7 features, then T where it is known without the network, else -1. No branch is taken.
-void nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float
-    z_farthest, float n, float b0, float b[4], out float result[8]) {
+float2x4 nmt_recentred(float v, float z, float absorbance, float nearest, float farthest, float z_nearest, float
+    z_farthest, float n, float b0, float4 b) {
     float c = 0.5 * (z_nearest + z_farthest);
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
     float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-    float m[4];
-    nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b, m);
+    float4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
     float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
     float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
     float noise1 = moment_noise * (0.12 * sqrt(n));
     float per_n = 1.0 / n;
-    float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+    float mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
     float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest) : clamp((z - c)
         * per_h, -1.0, 1.0));
     float further = noise_growth * 0.87;
     float noise2 = noise1 * further;
     float noise3 = noise2 * further;
     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+    float raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
     float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5 * per_n);
     // The same of (1 - x^2) times the measure, which does not hold the ends.
-    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+    float per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+    float raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
     float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
     float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
     float noise = noise3 * per_mass1;
@@ -155,21 +147,15 @@ void nmt_recentred(float v, float z, float absorbance, float nearest, float fart
     front = (v == nearest ? 0.0 : front);
     float known = (front >= 0.0 ? min(exp(-front), 1.0) : -1.0);
     float most1 = max(1.0 - mean1 * mean1, 1e-6);
-    float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+    float raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
     float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
     float square0 = spread0 * spread0;
     float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0
         / (1.0 + spread0 + spread0), 0.0, 1.0);
     float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further * per_mass1 / most1,
         (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-    result[0] = x;
-    result[1] = log(n) * 0.48089835 - 1.0;
-    result[2] = log(others + 0.05);
-    result[3] = mean0;
-    result[4] = spread0;
-    result[5] = mean1;
-    result[6] = spread1;
-    result[7] = known;
+    return float2x4(float4(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0), float4(spread0, mean1, spread1,
+        known));
 }
 
 static const float4x4 NMT_W1[8] = {
@@ -203,9 +189,9 @@ static const float4 NMT_W3[2] = {
 static const float NMT_B3 = -0.09972816f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(float f[7]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
-    float4 h0_1 = float4(f[4], f[5], f[6], 1.0f);
+float nmt_share(float2x4 f) {
+    float4 h0_0 = f[0];
+    float4 h0_1 = float4(f[1].xyz, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[2]) + mul(h0_1, NMT_W1[3]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[4]) + mul(h0_1, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -217,15 +203,15 @@ float nmt_share(float f[7]) {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+float nmt_transmittance(float2x4 f) {
+    float absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
-    float z_farthest, float n, float b0, float b[4]) {
+    float z_farthest, float n, float b0, float4 b) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = 0.0;
     if (v != nearest) {
@@ -235,13 +221,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                 float c = 0.5 * (z_nearest + z_farthest);
                 float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
                 float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-                float m[4];
-                nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b, m);
+                float4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
                 float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
                 float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 float noise1 = moment_noise * (0.12 * sqrt(n));
                 float per_n = 1.0 / n;
-                float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                float mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest)
@@ -250,12 +235,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     float noise2 = noise1 * further;
                     float noise3 = noise2 * further;
                     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    float raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
                     float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    float per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+                    float raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
                     float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     float noise = noise3 * per_mass1;
@@ -265,16 +250,15 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         float most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        float raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         float square0 = spread0 * spread0;
                         float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        float features[7] = { x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0,
-                            mean1, spread1 };
-                        front = others * nmt_share(features);
+                        front = others * nmt_share(float2x4(float4(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
+                            mean0), float4(spread0, mean1, spread1, 0.0)));
                     }
                 }
             }
@@ -307,13 +291,12 @@ float nmt_first_hidden_depth(float b0, float b1, float b2) {
 // The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments.
 // Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies there,
 // rounding included.
-float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, float b[4]) {
+float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_farthest, float n, float b0, float4 b) {
     float c = 0.5 * (z_nearest + z_farthest);
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
     float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-    float m[4];
-    nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b, m);
+    float4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
     float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
     // What rounding may have done to moments and places.
     float unsure = (n + 16.0) * NMT_ROUNDING * b0 / max(others, 1e-30);
@@ -321,15 +304,15 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
     float end = 1.0 + off;
     float x = clamp((z - c) * per_h, -1.0, 1.0) - off;
     // Cantelli's inequality.
-    float ahead = x - m[0];
-    float r1 = max(m[0] - max(m[1] - m[0] * m[0], 0.0) / max(ahead, 1e-30), -1e6);
+    float ahead = x - m.x;
+    float r1 = max(m.x - max(m.y - m.x * m.x, 0.0) / max(ahead, 1e-30), -1e6);
     float growth1 = noise_growth + abs(r1);
     float gap1 = x - r1;
-    float share1 = (m[1] - 2.0 * r1 * m[0] + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
+    float share1 = (m.y - 2.0 * r1 * m.x + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
     // The quartic.
-    float w1 = m[0] - m[2];
-    float below = w1 - x * (1.0 - m[1]);
-    float inner = (m[1] - m[3] - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
+    float w1 = m.x - m.z;
+    float below = w1 - x * (1.0 - m.y);
+    float inner = (m.y - m.w - x * w1) / (abs(below) < 1e-30 ? 1e-30 : below);
     float outer = max(r1, -1.0);
     float inside = (inner >= -end ? inner : outer);
     float r = (inside < x ? inside : outer);
@@ -341,8 +324,8 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
     float p1 = r * r - 2.0 * r * end;
     float p2 = end - 2.0 * r;
     float lift = 1.0 + gamma * x;
-    float value = p0 * lift + (p1 * lift - gamma * p0) * m[0] + (p2 * lift - gamma * p1) * m[1] + (lift - gamma
-        * p2) * m[2] - gamma * m[3];
+    float value = p0 * lift + (p1 * lift - gamma * p0) * m.x + (p2 * lift - gamma * p1) * m.y + (lift - gamma * p2)
+        * m.z - gamma * m.w;
     float growth2 = noise_growth + abs(r);
     float lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     float share2 = (value + lost) * per_value;
@@ -355,7 +338,7 @@ float nmt_hidden_weight(float z, float absorbance, float z_nearest, float z_fart
 // Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint
 // pixels and hidden fragments. Pixels of up to four fragments have forms of their own.
 float nmt_visible_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
-    float z_farthest, float n, float b0, float b[4]) {
+    float z_farthest, float n, float b0, float4 b) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = -1.0;
     if (n > 4.0) {
@@ -366,7 +349,7 @@ float nmt_visible_transmittance(float v, float z, float absorbance, float neares
                         front = 0.5 * others;
                     }
                     if (NMT_HIDDEN > 0.0) {
-                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                        if (z >= nmt_first_hidden_depth(b0, b.x, b.y)) {
                             if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
                                 front = others;
                             }
@@ -398,38 +381,29 @@ struct NmtSums {
 // the greatest v of the scene.
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
-    float b[4];
-    nmt_moments(nmt_moment_depth(v, v0, v1), absorbance, b);
-    NmtSums sums;
-    sums.sums0 = float4(absorbance, b[0], b[1], b[2]);
-    sums.sums1 = float4(b[3], 1.0, 0.0, 0.0);
-    sums.range = float4(-v, v, 0.0, 0.0);
-    return sums;
+    float4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    NmtSums result;
+    result.sums0 = float4(absorbance, b.xyz);
+    result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
+    result.range = float4(-v, v, 0.0, 0.0);
+    return result;
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
-    float b[4] = { sums0.y, sums0.z, sums0.w, sums1.x };
     float nearest = -range.x;
-    float farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, b
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, float4(sums0.yzw,
+        sums1.x));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
 float nmt_visible_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
-    float b[4] = { sums0.y, sums0.z, sums0.w, sums1.x };
     float nearest = -range.x;
-    float farthest = range.y;
-    return nmt_visible_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, b
-    );
+    return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, float4(sums0.yzw,
+        sums1.x));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -437,8 +411,8 @@ float nmt_visible_pass2(float v, float v0, float v1, float alpha, float4 sums0, 
 // alpha.
 float4 nmt_resolve(float4 weighted, float4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return float4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return float4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 #endif

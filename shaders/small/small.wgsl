@@ -43,22 +43,22 @@ fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
 const NMT_ROUNDING: f32 = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 4> {
+fn nmt_moments(z: f32, absorbance: f32) -> vec4<f32> {
     let moment1 = absorbance * z;
     let moment2 = moment1 * z;
     let moment3 = moment2 * z;
     let moment4 = moment3 * z;
-    return array<f32, 4>(moment1, moment2, moment3, moment4);
+    return vec4<f32>(moment1, moment2, moment3, moment4);
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: array<f32, 4>) -> array<f32, 4> {
+fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: vec4<f32>) -> vec4<f32> {
     let own = nmt_moments(z, absorbance);
-    let m1 = (b[0] - own[0]) * per_b0;
-    let m2 = (b[1] - own[1]) * per_b0;
-    let m3 = (b[2] - own[2]) * per_b0;
-    let m4 = (b[3] - own[3]) * per_b0;
+    let m1 = (b.x - own.x) * per_b0;
+    let m2 = (b.y - own.y) * per_b0;
+    let m3 = (b.z - own.z) * per_b0;
+    let m4 = (b.w - own.w) * per_b0;
     // Moments of z - c, one factor at a time.
     let m4_2 = m4 - c * m3;
     let m3_2 = m3 - c * m2;
@@ -73,7 +73,7 @@ fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f3
     let per_h2 = per_h * per_h;
     let per_h3 = per_h2 * per_h;
     let per_h4 = per_h2 * per_h2;
-    return array<f32, 4>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
+    return vec4<f32>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
         1.0), clamp(m4_5 * per_h4, -1.0, 1.0));
 }
 
@@ -106,7 +106,7 @@ fn nmt_share_of_four(x: f32, mean: f32, spread: f32, u: f32, transition_width: f
 // and farthest view depth as f32, their moment depths, number of fragments n, total absorbance b0 and moments b1..b4.
 // The result holds the 7 features, then T where it is known without the network, else -1. No branch is taken.
 fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32, z_farthest: f32,
-    n: f32, b0: f32, b: array<f32, 4>) -> array<f32, 8> {
+    n: f32, b0: f32, b: vec4<f32>) -> mat2x4<f32> {
     let c = 0.5 * (z_nearest + z_farthest);
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
@@ -116,18 +116,18 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
     let noise1 = moment_noise * (0.12 * sqrt(n));
     let per_n = 1.0 / n;
-    let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+    let mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
     let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01 > (farthest
         - nearest) / nearest);
     let further = noise_growth * 0.87;
     let noise2 = noise1 * further;
     let noise3 = noise2 * further;
     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+    let raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
     let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5 * per_n);
     // The same of (1 - x^2) times the measure, which does not hold the ends.
-    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+    let per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+    let raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
     let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
     let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
     let noise = noise3 * per_mass1;
@@ -143,14 +143,15 @@ fn nmt_recentred(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z
     front = select(front, 0.0, v == nearest);
     let known = select(-1.0, min(exp(-front), 1.0), front >= 0.0);
     let most1 = max(1.0 - mean1 * mean1, 1e-6);
-    let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+    let raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
     let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
     let square0 = spread0 * spread0;
     let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset * offset) * spread0
         / (1.0 + spread0 + spread0), 0.0, 1.0);
     let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further * per_mass1 / most1,
         (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-    return array<f32, 8>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0, mean1, spread1, known);
+    return mat2x4<f32>(vec4<f32>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0), vec4<f32>(spread0, mean1,
+        spread1, known));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 8>(
@@ -184,9 +185,9 @@ const NMT_W3 = array<vec4<f32>, 2>(
 const NMT_B3: f32 = -0.09972816f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-fn nmt_share(f: array<f32, 7>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], f[3]);
-    let h0_1 = vec4<f32>(f[4], f[5], f[6], 1.0f);
+fn nmt_share(f: mat2x4<f32>) -> f32 {
+    let h0_0 = f[0];
+    let h0_1 = vec4<f32>(f[1].xyz, 1.0f);
     let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4<f32>(0.0f));
@@ -198,15 +199,15 @@ fn nmt_share(f: array<f32, 7>) -> f32 {
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: array<f32, 7>) -> f32 {
-    let absorbance = max(exp(min(f[2], 40.0f)) - 0.05f, 0.0);
+fn nmt_transmittance(f: mat2x4<f32>) -> f32 {
+    let absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
 
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
-    z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
+    z_farthest: f32, n: f32, b0: f32, b: vec4<f32>) -> f32 {
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = 0.0;
     if (v != nearest) {
@@ -221,7 +222,7 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                 let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 let noise1 = moment_noise * (0.12 * sqrt(n));
                 let per_n = 1.0 / n;
-                let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                let mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01
@@ -230,12 +231,12 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     let noise2 = noise1 * further;
                     let noise3 = noise2 * further;
                     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    let raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
                     let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    let per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+                    let raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
                     let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     let noise = noise3 * per_mass1;
@@ -245,15 +246,15 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         let most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        let raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         let square0 = spread0 * spread0;
                         let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        front = others * nmt_share(array<f32, 7>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
-                            mean0, spread0, mean1, spread1));
+                        front = others * nmt_share(mat2x4<f32>(vec4<f32>(x, log(n) * 0.48089835 - 1.0, log(others
+                            + 0.05), mean0), vec4<f32>(spread0, mean1, spread1, 0.0)));
                     }
                 }
             }
@@ -286,8 +287,7 @@ fn nmt_first_hidden_depth(b0: f32, b1: f32, b2: f32) -> f32 {
 // The most that a fragment and all behind it weigh, opacity times transmittance, whatever has these moments.
 // Polynomials that are 0 or more in the pixel and 1 or more from the fragment on bound the share that lies there,
 // rounding included.
-fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: array<f32,
-    4>) -> f32 {
+fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n: f32, b0: f32, b: vec4<f32>) -> f32 {
     let c = 0.5 * (z_nearest + z_farthest);
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     let per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
@@ -300,15 +300,15 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     let end = 1.0 + off;
     let x = clamp((z - c) * per_h, -1.0, 1.0) - off;
     // Cantelli's inequality.
-    let ahead = x - m[0];
-    let r1 = max(m[0] - max(m[1] - m[0] * m[0], 0.0) / max(ahead, 1e-30), -1e6);
+    let ahead = x - m.x;
+    let r1 = max(m.x - max(m.y - m.x * m.x, 0.0) / max(ahead, 1e-30), -1e6);
     let growth1 = noise_growth + abs(r1);
     let gap1 = x - r1;
-    let share1 = (m[1] - 2.0 * r1 * m[0] + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
+    let share1 = (m.y - 2.0 * r1 * m.x + r1 * r1 + unsure * (growth1 * growth1)) / max(gap1 * gap1, 1e-30);
     // The quartic.
-    let w1 = m[0] - m[2];
-    let below = w1 - x * (1.0 - m[1]);
-    let inner = (m[1] - m[3] - x * w1) / select(below, 1e-30, 1e-30 > abs(below));
+    let w1 = m.x - m.z;
+    let below = w1 - x * (1.0 - m.y);
+    let inner = (m.y - m.w - x * w1) / select(below, 1e-30, 1e-30 > abs(below));
     let outer = max(r1, -1.0);
     let inside = select(outer, inner, inner >= -end);
     let r = select(outer, inside, x > inside);
@@ -320,8 +320,8 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
     let p1 = r * r - 2.0 * r * end;
     let p2 = end - 2.0 * r;
     let lift = 1.0 + gamma * x;
-    let value = p0 * lift + (p1 * lift - gamma * p0) * m[0] + (p2 * lift - gamma * p1) * m[1] + (lift - gamma * p2)
-        * m[2] - gamma * m[3];
+    let value = p0 * lift + (p1 * lift - gamma * p0) * m.x + (p2 * lift - gamma * p1) * m.y + (lift - gamma * p2)
+        * m.z - gamma * m.w;
     let growth2 = noise_growth + abs(r);
     let lost = unsure * (end + noise_growth) * (growth2 * growth2) * (1.0 + gamma * (abs(x) + noise_growth));
     let share2 = (value + lost) * per_value;
@@ -334,7 +334,7 @@ fn nmt_hidden_weight(z: f32, absorbance: f32, z_nearest: f32, z_farthest: f32, n
 // Pass 2, with the network for what can be seen: parameters and answers as of nmt_fragment_transmittance, but for faint
 // pixels and hidden fragments. Pixels of up to four fragments have forms of their own.
 fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
-    z_farthest: f32, n: f32, b0: f32, b: array<f32, 4>) -> f32 {
+    z_farthest: f32, n: f32, b0: f32, b: vec4<f32>) -> f32 {
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = -1.0;
     if (n > 4.0) {
@@ -345,7 +345,7 @@ fn nmt_visible_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, fart
                         front = 0.5 * others;
                     }
                     if (NMT_HIDDEN > 0.0) {
-                        if (z >= nmt_first_hidden_depth(b0, b[0], b[1])) {
+                        if (z >= nmt_first_hidden_depth(b0, b.x, b.y)) {
                             if (nmt_hidden_weight(z, absorbance, z_nearest, z_farthest, n, b0, b) <= NMT_HIDDEN) {
                                 front = others;
                             }
@@ -378,30 +378,25 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0], b[1], b[2]), vec4<f32>(b[3], 1.0, 0.0, 0.0), vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b.xyz), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
     let nearest = -range.x;
-    let farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, array<f32, 4>(sums0.y, sums0.z, sums0.w, sums1.x)
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4<f32>(sums0.yzw,
+        sums1.x));
 }
 
 // As nmt_pass2, without the network for what cannot be seen; see nmt_visible_transmittance.
-fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
+fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>,
+    range: vec4<f32>) -> f32 {
     let nearest = -range.x;
-    let farthest = range.y;
-    return nmt_visible_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, array<f32, 4>(sums0.y, sums0.z, sums0.w, sums1.x)
-    );
+    return nmt_visible_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, vec4<f32>(sums0.yzw,
+        sums1.x));
 }
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
@@ -410,5 +405,5 @@ fn nmt_visible_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sum
 fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>) -> vec4<f32> {
     let behind = exp(-sums0.x);
     let scale = select(0.0, (1.0 - behind) / max(weighted.w, 1e-37), weighted.w > 0.0);
-    return vec4<f32>(scale * weighted.xyz, behind);
+    return vec4<f32>(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }

@@ -170,9 +170,9 @@ pub fn run(bytes: &[u8], rows: &[f32], width: usize) -> Result<Vec<f32>, String>
 mod tests {
     use super::*;
     use crate::export::onnx::encode;
+    use crate::export::protobuf::Message;
     use crate::model::mlp::tests::random_mlp;
     use crate::model::shipped;
-    use prost::Message;
 
     /// The reference to 5e-6, for both kinds of answers. Controls: a weight of another sign, and an operator in the
     /// place of another.

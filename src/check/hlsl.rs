@@ -2,7 +2,9 @@
 //! them.
 
 use super::shader::{Constants, glslang_hlsl, literals};
+use crate::export::dialect::Hlsl;
 use crate::export::shader::ENTRY;
+use crate::numeric::source::Dialect;
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -61,11 +63,10 @@ RWStructuredBuffer<float> nmt_out;
 
 [numthreads(64, 1, 1)]
 void {ROWS}(uint3 id : SV_DispatchThreadID) {{
-    float f[{width}] = {{ {} }};
-    nmt_out[id.x] = {ENTRY}(f);
+    nmt_out[id.x] = {ENTRY}({});
 }}
 ",
-        loads.join(", ")
+        Hlsl.numbers(&loads)
     )
 }
 
@@ -136,6 +137,7 @@ mod tests {
     use crate::model::{Dense, Mlp, Provenance};
     use crate::numeric::require::or_skip;
     use crate::numeric::rng::stream;
+    use crate::numeric::source::{Type, component};
     use rand::RngExt;
 
     const FORMATS: [Format; 4] = [
@@ -195,7 +197,7 @@ mod tests {
                 };
                 result.unwrap();
                 assert!(
-                    glslang(&whole.replace("nmt_transmittance(f)", "nmt_transmittance(g)"))
+                    glslang(&whole.replace("= nmt_transmittance(", "= nmt_transmittances("))
                         .unwrap()
                         .is_err()
                 );
@@ -251,49 +253,32 @@ mod tests {
                 Dense::new(6, 1, numbers(6), numbers(1)).unwrap(),
             ];
             let mlp = Mlp::new("m", set, layers, Provenance::default()).unwrap();
-            // Name, scalar arguments, whether moments follow (an array, or a vector for the paper's), and numbers
-            // written to an array behind them.
+            // Name, scalar arguments, whether moments follow, and numbers that are given.
             let functions: Vec<(&str, usize, bool, usize)> = match set {
                 FeatureSet::Paper => vec![
-                    ("nmt_absorbance", 1, false, 0),
-                    ("nmt_moments", 2, false, 0),
+                    ("nmt_absorbance", 1, false, 1),
+                    ("nmt_moments", 2, false, k),
                     ("nmt_features", 5, true, 7),
                 ],
                 FeatureSet::DeepWeightedBlended => vec![("nmt_features", 5, false, 3)],
                 _ => vec![
-                    ("nmt_absorbance", 1, false, 0),
-                    ("nmt_moment_depth", 3, false, 0),
+                    ("nmt_absorbance", 1, false, 1),
+                    ("nmt_moment_depth", 3, false, 1),
                     ("nmt_moments", 2, false, k),
                     ("nmt_recentred", 9, true, width + 1),
-                    ("nmt_fragment_transmittance", 9, true, 0),
+                    ("nmt_fragment_transmittance", 9, true, 1),
                 ],
             };
-            let vector = set == FeatureSet::Paper;
+            let inputs: Vec<String> = (0..k).map(|i| format!("nmt_in[{}]", 9 + i)).collect();
             // A shader that calls them all, so that slangc keeps them.
             let mut body = String::new();
             for (i, &(name, scalars, moments, out)) in functions.iter().enumerate() {
                 let mut call: Vec<String> = (0..scalars).map(|s| format!("nmt_in[{s}]")).collect();
-                if moments && vector {
-                    call.push("float4(nmt_in[9], nmt_in[10], nmt_in[11], nmt_in[12])".to_owned());
-                } else if moments {
-                    body += &format!(
-                        "    float b{i}[{k}];\n    for (uint k{i} = 0; k{i} < {k}; k{i}++) {{ b{i}[k{i}] = nmt_in[9 + \
-                            k{i}]; }}\n"
-                    );
-                    call.push(format!("b{i}"));
-                }
-                if out > 0 {
-                    call.push(format!("r{i}"));
-                    let sum: Vec<String> = (0..out).map(|o| format!("r{i}[{o}]")).collect();
-                    body += &format!(
-                        "    float r{i}[{out}];\n    {name}({});\n    nmt_out[{i}] = {};\n",
-                        call.join(", "),
-                        sum.join(" + ")
-                    );
-                } else {
-                    let part = if name == "nmt_moments" { ".x" } else { "" };
-                    body += &format!("    nmt_out[{i}] = {name}({}){part};\n", call.join(", "));
-                }
+                call.extend(moments.then(|| Hlsl.numbers(&inputs)));
+                let result = format!("r{i}");
+                let sum: Vec<String> = (0..out).map(|o| component(&result, out, o)).collect();
+                let statement = Hlsl.let_(Type::Reals(out), &result, &format!("{name}({})", call.join(", ")));
+                body += &format!("    {statement}\n    nmt_out[{i}] = {};\n", sum.join(" + "));
             }
             let head = "StructuredBuffer<float> nmt_in;\nRWStructuredBuffer<float> nmt_out;\n[numthreads(1, 1, \
                 1)]\nvoid probe() {\n";
@@ -330,19 +315,13 @@ mod tests {
                     scalars = std::array::from_fn(|_| next(0.0, 1.0));
                 }
                 let b: Vec<f32> = (0..k).map(|_| next(-1.0, 1.0)).collect();
-                for &(name, count, moments, out) in &functions {
+                for &(name, count, moments, _) in &functions {
                     let mut arguments: Vec<Value<1>> = scalars[..count].iter().map(|&x| Value::Uniform(x)).collect();
                     arguments.extend(moments.then(|| Value::numbers(&b)));
                     let expected = twin.call(name, arguments.clone()).unwrap().flatten().unwrap();
                     let function = hlsl.function_like(name).unwrap();
-                    let found = if out > 0 {
-                        let at = arguments.len();
-                        arguments.push(Value::numbers(&vec![0.0; out]));
-                        hlsl.call_out(function, arguments, at)
-                    } else {
-                        hlsl.call(function, arguments)
-                    };
-                    let found = found
+                    let found = hlsl
+                        .call(function, arguments)
                         .unwrap_or_else(|e| panic!("{set:?} {name}: {e}\n{wgsl}"))
                         .flatten()
                         .unwrap();

@@ -83,6 +83,24 @@ impl<const L: usize> Value<L> {
         Self::Composite(values.iter().map(|&v| Self::Uniform(v)).collect())
     }
 
+    /// Numbers in a row as a parameter of such a type takes them: a matrix takes them column by column, and 0 where
+    /// there are no more.
+    fn shaped(self, of: &TypeInner) -> Self {
+        match (self, of) {
+            (Self::Composite(items), TypeInner::Matrix { rows, .. })
+                if !items.iter().any(|item| matches!(item, Self::Composite(_))) =>
+            {
+                let rows = *rows as usize;
+                let column = |items: &[Self]| {
+                    let padding = vec![Self::Uniform(0.0); rows - items.len()];
+                    Self::Composite([items, &padding].concat().into())
+                };
+                Self::Composite(items.chunks(rows).map(column).collect())
+            }
+            (value, _) => value,
+        }
+    }
+
     /// The number in a lane.
     fn lane(&self, lane: usize) -> Result<f32> {
         match self {
@@ -373,25 +391,7 @@ impl<'a> Interpreter<'a> {
         self.run(function, arguments)?.0.ok_or(InterpretError::NoValue)
     }
 
-    /// Calls a function and returns what one of its pointer arguments points to in the end.
-    ///
-    /// # Errors
-    /// [`InterpretError`].
-    pub fn call_out<const L: usize>(&self, name: &str, arguments: Vec<Value<L>>, at: usize) -> Result<Value<L>> {
-        let found = self
-            .module
-            .functions
-            .iter()
-            .find(|(_, f)| f.name.as_deref() == Some(name));
-        let (function, _) = found.ok_or_else(|| InterpretError::NoFunction(name.to_owned()))?;
-        self.run(function, arguments)?
-            .1
-            .into_iter()
-            .nth(at)
-            .ok_or(InterpretError::Operands("a call"))
-    }
-
-    /// Calls a function of one array argument on rows of numbers; the result is a number a row.
+    /// Calls a function of one argument of `width` numbers on rows of numbers; the result is a number a row.
     ///
     /// # Shapes
     /// `rows: [N, width]`, row by row; the result is `[N]`.
@@ -433,6 +433,15 @@ impl<'a> Interpreter<'a> {
         if arguments.len() != function.arguments.len() {
             return Err(InterpretError::Operands("a call"));
         }
+        let expected = function
+            .arguments
+            .iter()
+            .map(|argument| &self.module.types[argument.ty].inner);
+        let arguments: Vec<Value<L>> = arguments
+            .into_iter()
+            .zip(expected)
+            .map(|(value, of)| value.shaped(of))
+            .collect();
         let halves = &self.halves[handle.index()];
         let mut locals = Vec::new();
         for (_, local) in function.local_variables.iter() {
@@ -716,11 +725,16 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
             Expression::Literal(literal) => literal_value(*literal),
             Expression::Constant(constant) => self.interpreter.constant_value(*constant),
             Expression::ZeroValue(ty) => zero(self.interpreter.module, *ty),
-            Expression::Compose { components, .. } => components
-                .iter()
-                .map(|&c| self.value(c))
-                .collect::<Result<_>>()
-                .map(Value::Composite),
+            Expression::Compose { ty, components } => {
+                let parts: Vec<Value<L>> = components.iter().map(|&c| self.value(c)).collect::<Result<_>>()?;
+                // Vectors are parts of a longer vector number by number.
+                let is_vector = matches!(self.interpreter.module.types[*ty].inner, TypeInner::Vector { .. });
+                let spliced = parts.into_iter().flat_map(|part| match part {
+                    Value::Composite(numbers) if is_vector => numbers.to_vec(),
+                    part => vec![part],
+                });
+                Ok(Value::Composite(spliced.collect()))
+            }
             Expression::Splat { size, value } => Ok(splat(self.value(*value)?, *size as usize)),
             Expression::FunctionArgument(index) => self
                 .arguments
@@ -892,6 +906,18 @@ mod tests {
             ),
             Ok(7.0)
         );
+        assert_eq!(
+            call(
+                "fn f(x: f32) -> f32 { let v = vec4<f32>(vec3<f32>(1.0, 2.0, x).yz, x, 5.0); return v.y + 10.0 * v.w; \
+                    }",
+                &[4.0]
+            ),
+            Ok(54.0)
+        );
+        // Numbers in a row fill the columns of a matrix, and 0 the rest.
+        let module = module("fn f(m: mat2x4<f32>) -> f32 { return m[0].w + 10.0 * m[1].x + 100.0 * m[1].y; }");
+        let rows = [[1.0, 2.0, 3.0, 4.0, 5.0], [0.0; 5]].concat();
+        assert_eq!(Interpreter::new(&module).call_rows("f", &rows, 5), Ok(vec![54.0, 0.0]));
         assert_eq!(
             call("fn f(x: f32) -> f32 { return exp(x); }", &[1.0]),
             Ok(std::f32::consts::E)

@@ -190,8 +190,8 @@ pub fn rten(bytes: &[u8], rows: &[f32], width: usize) -> Result<Vec<f32>, String
 mod tests {
     use super::*;
     use crate::export::onnx::encode;
+    use crate::export::protobuf::Message;
     use crate::model::mlp::tests::random_mlp;
-    use prost::Message;
 
     #[test]
     fn changed_bits_shapes_and_foreign_bytes_are_found() {

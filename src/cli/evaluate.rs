@@ -13,8 +13,8 @@ use super::ui::Ui;
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::order::{fragment_orders, judge_in_orders};
-use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_image, write_method};
-use crate::evaluate::{EvaluateError, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
+use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_floats, write_image, write_method};
+use crate::evaluate::{EvaluateError, Image, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
@@ -86,6 +86,10 @@ pub struct Evaluate {
     /// How the GPU stores sums between render passes.
     #[arg(long, value_enum, requires = "gpu", default_value = "full")]
     gpu_storage: StorageName,
+    /// Write every image also as numbers: beside NAME.png stands NAME.npy, f32 [height, width, 3] of linear colour,
+    /// neither clamped nor encoded.
+    #[arg(long, conflicts_with = "shadows")]
+    float_images: bool,
     /// Replace what is there.
     #[arg(long)]
     force: bool,
@@ -214,7 +218,9 @@ impl Session<'_> {
         let truth = Truth::new(&list, self.background);
         let mut remarks = String::new();
         let mut sheet = self.sheet(&name, &truth, &mut remarks)?;
-        let judged = self.judge(scene, &name, &truth)?;
+        let progress = self.ui.progress("evaluate", self.methods.len() as u64);
+        progress.set(0, format!("{name}: random orders"));
+        let mut in_orders = self.judge_in_orders(scene, &truth)?;
         let tinted = match self.options.tint {
             Some(strength) if truth.image().is_ok() => Some((Tinted::new(&list, strength, self.background)?, strength)),
             _ => None,
@@ -222,8 +228,14 @@ impl Session<'_> {
         let mut refused = Vec::new();
         let mut rows: Vec<Row> = Vec::new();
         let mut stems = HashSet::from(["truth".to_owned(), "sheet".to_owned()]);
-        for (requested, judged) in self.methods.iter().zip(judged) {
+        // One method's images after the other's, so that large scenes fit.
+        for (index, requested) in self.methods.iter().enumerate() {
             let method = &*requested.method;
+            progress.set(index as u64, format!("{name}: {}", method.name()));
+            let judged = match self.is_in_orders(method) {
+                true => in_orders.next().expect("one result a method"),
+                false => truth.judge(method, self.context),
+            };
             let mut judged = match judged {
                 Ok(judged) => judged,
                 Err(why) => {
@@ -234,6 +246,9 @@ impl Session<'_> {
             };
             let stem = free_stem(&method.name(), &mut stems);
             write_method(&self.folder(&name), &stem, self.replace, &judged)?;
+            if let Some((image, _)) = &judged.picture {
+                self.write_floats(&name, &stem, image)?;
+            }
             let drawn = self.draw(&name, &stem, &truth, requested, &judged, &mut remarks)?;
             judged.result.picture = judged.picture.is_some().then_some(stem);
             if let Some(sheet) = &mut sheet {
@@ -249,6 +264,7 @@ impl Session<'_> {
                 demanded: requested.demanded,
             });
         }
+        progress.finish();
         self.add_changes(scene, &mut rows)?;
         rows.sort_by(|a, b| by_error(&a.cpu, &b.cpu));
         if let Some(sheet) = sheet.filter(|_| !rows.is_empty()) {
@@ -267,11 +283,20 @@ impl Session<'_> {
         self.options.out.join(scene)
     }
 
+    /// Writes an image as numbers where that was asked for.
+    fn write_floats(&self, scene: &str, stem: &str, image: &Image) -> anyhow::Result<()> {
+        if self.options.float_images {
+            write_floats(&self.folder(scene).join(format!("{stem}.npy")), self.replace, image)?;
+        }
+        Ok(())
+    }
+
     /// Writes the exact image and begins the contact sheet; errors of T need neither.
     fn sheet(&self, name: &str, truth: &Truth<'_>, remarks: &mut String) -> anyhow::Result<Option<Sheet>> {
         match truth.image() {
             Ok(image) => {
                 write_image(&self.folder(name).join("truth.png"), self.replace, image)?;
+                self.write_floats(name, "truth", image)?;
                 Ok(Some(Sheet::new(name, truth.list(), image)))
             }
             Err(why) => {
@@ -281,28 +306,21 @@ impl Session<'_> {
         }
     }
 
-    /// One result a method, in their order: on the list as it stands, and of those that depend on the order in random
-    /// ones.
-    fn judge(&self, scene: &str, name: &str, truth: &Truth<'_>) -> anyhow::Result<Vec<Result<Judged, EvaluateError>>> {
-        let in_orders = |method: &dyn Method| self.options.orders > 0 && method.capabilities().order_dependent;
-        let progress = self.ui.progress("evaluate", self.methods.len() as u64);
-        let mut judged: Vec<Option<Result<Judged, EvaluateError>>> = Vec::new();
-        for (index, Requested { method, .. }) in self.methods.iter().enumerate() {
-            progress.set(index as u64, format!("{name}: {}", method.name()));
-            judged.push((!in_orders(&**method)).then(|| truth.judge(&**method, self.context)));
-        }
-        progress.set(self.methods.len() as u64, format!("{name}: random orders"));
-        let dependent: Vec<&dyn Method> = self
-            .methods
-            .iter()
-            .map(|r| &*r.method)
-            .filter(|m| in_orders(*m))
-            .collect();
+    /// Whether a method is judged in random orders: it depends on the order, and some are asked for.
+    fn is_in_orders(&self, method: &dyn Method) -> bool {
+        self.options.orders > 0 && method.capabilities().order_dependent
+    }
+
+    /// Results of the methods that are judged in random orders, in their order.
+    fn judge_in_orders(
+        &self,
+        scene: &str,
+        truth: &Truth<'_>,
+    ) -> anyhow::Result<impl Iterator<Item = Result<Judged, EvaluateError>> + use<>> {
+        let methods = self.methods.iter().map(|r| &*r.method);
+        let dependent: Vec<&dyn Method> = methods.filter(|m| self.is_in_orders(*m)).collect();
         let orders = self.orders(scene, truth.list());
-        let mut in_orders = judge_in_orders(&dependent, orders, self.context, self.background)?.into_iter();
-        progress.finish();
-        let filled = judged.into_iter().map(|judged| judged.or_else(|| in_orders.next()));
-        Ok(filled.map(|judged| judged.expect("one result a method")).collect())
+        Ok(judge_in_orders(&dependent, orders, self.context, self.background)?.into_iter())
     }
 
     /// Random orders of fragments, then of whole objects where the scene is rendered here.
@@ -353,6 +371,7 @@ impl Session<'_> {
                 let folder = self.folder(scene);
                 write_image(&folder.join(format!("{stem}.gpu.png")), self.replace, &drawn.image)?;
                 write_flip(&folder.join(format!("{stem}.gpu.flip.png")), self.replace, &drawn.map)?;
+                self.write_floats(scene, &format!("{stem}.gpu"), &drawn.image)?;
                 Ok(Some(drawn.result))
             }
             Err(why) => {

@@ -125,6 +125,7 @@ impl<'a> Truth<'a> {
             Err(_) => None,
             Ok(exact) => {
                 let image = image::of_method(self.list, &*accumulated, &weights, self.background)?;
+                drop(accumulated);
                 let (error, map) = (image.error(exact)?, flip(exact, &image)?);
                 Some((error, image, map))
             }

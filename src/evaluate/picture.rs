@@ -2,6 +2,7 @@
 //! glance.
 //!
 //! Numbers are never taken from these pictures: they are clamped, sRGB-encoded and rounded to 8 bits for display.
+//! [`write_floats`] writes an image as it is.
 
 use super::judge::{MethodResult, by_error};
 use super::{EvaluateError, FlipMap, Image, Judged};
@@ -9,7 +10,9 @@ use crate::chart::font;
 use crate::chart::palette::{NOT_FINITE, Rgb, heat};
 use crate::chart::raster::Raster;
 use crate::numeric::file::{FileError, Replace, write_atomically};
+use crate::numeric::npy::write_npy;
 use crate::pixel::FragmentList;
+use ndarray::Array3;
 use std::path::Path;
 
 /// Linear colour to an 8-bit sRGB display colour (IEC 61966-2-1); magenta where a channel is not finite.
@@ -46,6 +49,17 @@ fn write_png(path: &Path, replace: Replace, picture: &Raster) -> Result<(), Eval
 /// [`EvaluateError::File`].
 pub fn write_image(path: &Path, replace: Replace, image: &Image) -> Result<(), EvaluateError> {
     write_png(path, replace, &image_picture(image))
+}
+
+/// Writes an image as NumPy's `.npy`: f32 `[height, width, 3]`, linear colour, neither clamped nor encoded.
+///
+/// # Errors
+/// [`EvaluateError::File`].
+pub fn write_floats(path: &Path, replace: Replace, image: &Image) -> Result<(), EvaluateError> {
+    let channels = image.pixels().iter().flatten().map(|&v| v as f32).collect();
+    let shape = (image.height() as usize, image.width() as usize, 3);
+    let array = Array3::from_shape_vec(shape, channels).expect("an image has width times height pixels");
+    Ok(write_npy(path, replace, array.view())?)
 }
 
 /// Writes a FLIP map as PNG, from near black at 0 to pale yellow at 1; magenta where it is not finite.

@@ -1,6 +1,6 @@
 //! The files of a shader folder: include files, and the three passes as whole files for every graphics API.
 
-use super::calls::{channels, has_passes, resolve, targets};
+use super::calls::{channels, targets};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
 use super::{ExportError, Format, core, encode_as, translate};
@@ -196,7 +196,7 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if !has_passes(set) {
+    if !set.spec().has_blended_passes() {
         out.extend(core::chain_files(mlp, &core::CoreLanguage::ALL, prefix)?);
         let apis = if core::has_chain(mlp) { &Api::OF_CORES[..] } else { &[] };
         for &api in apis {
@@ -263,7 +263,6 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
         let binding = if api == Api::Direct3d { last as u32 } else { 0 };
         let place = core::CoreBinding { group: 3, binding };
         include += &core::calls(mlp, api.core_language(), place);
-        include += resolve(api.format().language().expect("the format of a shader"));
     }
     let mut text = String::new();
     for line in template.lines() {

@@ -1,6 +1,6 @@
 //! Export formats: what is written, how weights are laid out in it, and in which precision.
 
-use super::shader::Language;
+use super::dialect::{Glsl, Hlsl, ShadingLanguage, Wgsl};
 use crate::model::Mlp;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -49,7 +49,7 @@ struct Facts {
     /// What follows the name of the network in the names of files, in the same order.
     suffixes: [&'static str; 4],
     /// The language that it is, or that it is translated from; none for what is no shader.
-    language: Option<Language>,
+    language: Option<&'static dyn ShadingLanguage>,
     /// Whether it is offered with unrolled scalars.
     plain: bool,
     /// Whether it is offered with hidden layers in f16.
@@ -92,12 +92,12 @@ impl Target {
 
     fn facts(self) -> Facts {
         match self {
-            Self::Wgsl => facts!("wgsl", "wgsl", Some(Language::Wgsl), plain: true, half: true),
+            Self::Wgsl => facts!("wgsl", "wgsl", Some(&Wgsl), plain: true, half: true),
             // No compiler that could execute GLSL in f16 on the CPU reads it.
-            Self::Glsl => facts!("glsl", "glsl", Some(Language::Glsl), plain: true, half: false),
-            Self::Hlsl => facts!("hlsl", "hlsl", Some(Language::Hlsl), plain: true, half: true),
-            Self::Metal => facts!("metal", "metal", Some(Language::Wgsl), plain: false, half: true),
-            Self::Spirv => facts!("spirv", "spv", Some(Language::Wgsl), plain: false, half: true),
+            Self::Glsl => facts!("glsl", "glsl", Some(&Glsl), plain: true, half: false),
+            Self::Hlsl => facts!("hlsl", "hlsl", Some(&Hlsl), plain: true, half: true),
+            Self::Metal => facts!("metal", "metal", Some(&Wgsl), plain: false, half: true),
+            Self::Spirv => facts!("spirv", "spv", Some(&Wgsl), plain: false, half: true),
             Self::Json => facts!("json", "json", None, plain: false, half: false),
             Self::Onnx => facts!("onnx", "onnx", None, plain: false, half: false),
         }
@@ -247,7 +247,7 @@ impl Format {
     }
 
     /// The language that it is, or that it is translated from; none for what is no shader.
-    pub fn language(self) -> Option<Language> {
+    pub fn language(self) -> Option<&'static dyn ShadingLanguage> {
         self.target.facts().language
     }
 

@@ -12,6 +12,7 @@ pub mod files;
 pub mod format;
 pub mod onnx;
 pub mod prefix;
+pub mod protobuf;
 pub mod recentred;
 pub mod shader;
 pub mod translate;

@@ -3,9 +3,9 @@
 //! Input `features` f32 `[N, W]`, output `transmittance` f32 `[N, 1]`. The messages are the few of onnx.proto3 that
 //! such a graph needs, declared by hand.
 
+use super::protobuf::{DecodeError, Field, Message, Value, message};
 use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
-use prost::Message;
 
 /// Version of the operator set.
 pub const OPSET: i64 = 13;
@@ -18,163 +18,168 @@ pub const INPUT: &str = "features";
 /// Name of the graph's output.
 pub const OUTPUT: &str = "transmittance";
 
-/// `onnx.ModelProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct ModelProto {
-    /// File format.
-    #[prost(int64, tag = "1")]
-    pub ir_version: i64,
-    /// The program that wrote it.
-    #[prost(string, tag = "2")]
-    pub producer_name: String,
-    /// Its version.
-    #[prost(string, tag = "3")]
-    pub producer_version: String,
-    /// What it is, in words.
-    #[prost(string, tag = "6")]
-    pub doc_string: String,
-    /// The graph.
-    #[prost(message, optional, tag = "7")]
-    pub graph: Option<GraphProto>,
-    /// Operator sets that it uses.
-    #[prost(message, repeated, tag = "8")]
-    pub opset_import: Vec<OperatorSetIdProto>,
-    /// Key and value pairs.
-    #[prost(message, repeated, tag = "14")]
-    pub metadata_props: Vec<StringStringEntryProto>,
+message! {
+    /// `onnx.ModelProto`.
+    ModelProto {
+        /// File format.
+        ir_version: i64 = 1,
+        /// The program that wrote it.
+        producer_name: String = 2,
+        /// Its version.
+        producer_version: String = 3,
+        /// What it is, in words.
+        doc_string: String = 6,
+        /// The graph.
+        graph: Option<GraphProto> = 7,
+        /// Operator sets that it uses.
+        opset_import: Vec<OperatorSetIdProto> = 8,
+        /// Key and value pairs.
+        metadata_props: Vec<StringStringEntryProto> = 14,
+    }
 }
 
-/// `onnx.OperatorSetIdProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct OperatorSetIdProto {
-    /// Empty for ONNX's own operators.
-    #[prost(string, tag = "1")]
-    pub domain: String,
-    /// Version of the set.
-    #[prost(int64, tag = "2")]
-    pub version: i64,
+message! {
+    /// `onnx.OperatorSetIdProto`.
+    OperatorSetIdProto {
+        /// Empty for ONNX's own operators.
+        domain: String = 1,
+        /// Version of the set.
+        version: i64 = 2,
+    }
 }
 
-/// `onnx.StringStringEntryProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct StringStringEntryProto {
-    /// Key.
-    #[prost(string, tag = "1")]
-    pub key: String,
-    /// Value.
-    #[prost(string, tag = "2")]
-    pub value: String,
+message! {
+    /// `onnx.StringStringEntryProto`.
+    StringStringEntryProto {
+        /// Key.
+        key: String = 1,
+        /// Value.
+        value: String = 2,
+    }
 }
 
-/// `onnx.GraphProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct GraphProto {
-    /// Operations, in order.
-    #[prost(message, repeated, tag = "1")]
-    pub node: Vec<NodeProto>,
-    /// Name.
-    #[prost(string, tag = "2")]
-    pub name: String,
-    /// Weights and biases.
-    #[prost(message, repeated, tag = "5")]
-    pub initializer: Vec<TensorProto>,
-    /// Inputs.
-    #[prost(message, repeated, tag = "11")]
-    pub input: Vec<ValueInfoProto>,
-    /// Outputs.
-    #[prost(message, repeated, tag = "12")]
-    pub output: Vec<ValueInfoProto>,
+message! {
+    /// `onnx.GraphProto`.
+    GraphProto {
+        /// Operations, in order.
+        node: Vec<NodeProto> = 1,
+        /// Name.
+        name: String = 2,
+        /// Weights and biases.
+        initializer: Vec<TensorProto> = 5,
+        /// Inputs.
+        input: Vec<ValueInfoProto> = 11,
+        /// Outputs.
+        output: Vec<ValueInfoProto> = 12,
+    }
 }
 
-/// `onnx.NodeProto`, without attributes: Gemm's defaults (alpha = beta = 1, nothing transposed) are what is needed.
-#[derive(Clone, PartialEq, Message)]
-pub struct NodeProto {
-    /// Names of its inputs.
-    #[prost(string, repeated, tag = "1")]
-    pub input: Vec<String>,
-    /// Names of its outputs.
-    #[prost(string, repeated, tag = "2")]
-    pub output: Vec<String>,
-    /// Name.
-    #[prost(string, tag = "3")]
-    pub name: String,
-    /// Operator.
-    #[prost(string, tag = "4")]
-    pub op_type: String,
+message! {
+    /// `onnx.NodeProto`, without attributes: Gemm's defaults (alpha = beta = 1, nothing transposed) are what is needed.
+    NodeProto {
+        /// Names of its inputs.
+        input: Vec<String> = 1,
+        /// Names of its outputs.
+        output: Vec<String> = 2,
+        /// Name.
+        name: String = 3,
+        /// Operator.
+        op_type: String = 4,
+    }
 }
 
-/// `onnx.TensorProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct TensorProto {
-    /// Shape. Not packed: strict readers of this proto2-style field insist.
-    #[prost(int64, repeated, packed = "false", tag = "1")]
-    pub dims: Vec<i64>,
-    /// Element type; 1 is f32.
-    #[prost(int32, tag = "2")]
-    pub data_type: i32,
-    /// Name.
-    #[prost(string, tag = "8")]
-    pub name: String,
-    /// Values, little-endian.
-    #[prost(bytes = "vec", tag = "9")]
-    pub raw_data: Vec<u8>,
+message! {
+    /// `onnx.TensorProto`.
+    TensorProto {
+        /// Shape. Not packed: strict readers of this proto2-style field insist.
+        dims: Vec<i64> = 1,
+        /// Element type; 1 is f32.
+        data_type: i32 = 2,
+        /// Name.
+        name: String = 8,
+        /// Values, little-endian.
+        raw_data: Vec<u8> = 9,
+    }
 }
 
-/// `onnx.ValueInfoProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct ValueInfoProto {
-    /// Name.
-    #[prost(string, tag = "1")]
-    pub name: String,
-    /// Type.
-    #[prost(message, optional, tag = "2")]
-    pub r#type: Option<TypeProto>,
+message! {
+    /// `onnx.ValueInfoProto`.
+    ValueInfoProto {
+        /// Name.
+        name: String = 1,
+        /// Type.
+        r#type: Option<TypeProto> = 2,
+    }
 }
 
-/// `onnx.TypeProto`, tensors only.
-#[derive(Clone, PartialEq, Message)]
-pub struct TypeProto {
-    /// Element type and shape.
-    #[prost(message, optional, tag = "1")]
-    pub tensor_type: Option<TensorType>,
+message! {
+    /// `onnx.TypeProto`, tensors only.
+    TypeProto {
+        /// Element type and shape.
+        tensor_type: Option<TensorType> = 1,
+    }
 }
 
-/// `onnx.TypeProto.Tensor`.
-#[derive(Clone, PartialEq, Message)]
-pub struct TensorType {
-    /// 1 is f32.
-    #[prost(int32, tag = "1")]
-    pub elem_type: i32,
-    /// Shape.
-    #[prost(message, optional, tag = "2")]
-    pub shape: Option<TensorShapeProto>,
+message! {
+    /// `onnx.TypeProto.Tensor`.
+    TensorType {
+        /// 1 is f32.
+        elem_type: i32 = 1,
+        /// Shape.
+        shape: Option<TensorShapeProto> = 2,
+    }
 }
 
-/// `onnx.TensorShapeProto`.
-#[derive(Clone, PartialEq, Message)]
-pub struct TensorShapeProto {
-    /// Dimensions.
-    #[prost(message, repeated, tag = "1")]
-    pub dim: Vec<Dimension>,
+message! {
+    /// `onnx.TensorShapeProto`.
+    TensorShapeProto {
+        /// Dimensions.
+        dim: Vec<Dimension> = 1,
+    }
 }
 
 /// `onnx.TensorShapeProto.Dimension`: a number or a name.
-#[derive(Clone, PartialEq, Message)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Dimension {
     /// Which of the two.
-    #[prost(oneof = "DimensionValue", tags = "1, 2")]
     pub value: Option<DimensionValue>,
 }
 
 /// Value of a [`Dimension`].
-#[derive(Clone, PartialEq, prost::Oneof)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum DimensionValue {
-    /// Fixed size.
-    #[prost(int64, tag = "1")]
+    /// Fixed size, field 1.
     Size(i64),
-    /// Name of a free size.
-    #[prost(string, tag = "2")]
+    /// Name of a free size, field 2.
     Name(String),
+}
+
+impl Message for Dimension {
+    fn write(&self, out: &mut Vec<u8>) {
+        // As members of a list, either is written whatever its value.
+        match &self.value {
+            Some(DimensionValue::Size(size)) => vec![*size].write(1, out),
+            Some(DimensionValue::Name(name)) => vec![name.clone()].write(2, out),
+            None => {}
+        }
+    }
+
+    fn field(&mut self, number: u64, value: Value<'_>) -> Result<(), DecodeError> {
+        match number {
+            1 => {
+                let mut size = 0;
+                i64::read(&mut size, value)?;
+                self.value = Some(DimensionValue::Size(size));
+            }
+            2 => {
+                let mut name = String::new();
+                Field::read(&mut name, value)?;
+                self.value = Some(DimensionValue::Name(name));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
 }
 
 const FLOAT: i32 = 1;
@@ -339,7 +344,7 @@ pub fn encode(mlp: &Mlp) -> Vec<u8> {
 ///
 /// # Errors
 /// Where the bytes are not such messages.
-pub fn decode(bytes: &[u8]) -> Result<ModelProto, prost::DecodeError> {
+pub fn decode(bytes: &[u8]) -> Result<ModelProto, DecodeError> {
     ModelProto::decode(bytes)
 }
 

@@ -1,27 +1,16 @@
 //! Shader source: WGSL, GLSL and HLSL, unrolled scalars or packed vectors, in f32 or with the hidden layers in f16,
 //! through one emitter.
 
-use super::dialect::{Glsl, Hlsl, Wgsl};
+use super::dialect::ShadingLanguage;
 use super::{ExportError, Form, Format, Precision, Prefix, calls};
 use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
 use crate::model::simplify::Pruned;
 use crate::model::{Dense, Mlp};
 use crate::numeric::quantise::round_f16;
-use crate::numeric::source::{Dialect, Source};
+use crate::numeric::source::{Source, Type, component};
 use std::fmt::Write;
 
-/// A shading language.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Language {
-    /// WebGPU's.
-    Wgsl,
-    /// OpenGL's and Vulkan's: GLSL 4.50 and GLSL ES 3.00 read it.
-    Glsl,
-    /// Direct3D's, shader model 5 and later.
-    Hlsl,
-}
-
-/// The function that answers; it takes the array of features.
+/// The function that answers; it takes the features as one value, see [`Type::Reals`].
 pub const ENTRY: &str = "nmt_transmittance";
 
 pub use crate::features::SHARE;
@@ -34,71 +23,24 @@ pub fn network_function(set: FeatureSet) -> &'static str {
     }
 }
 
-impl Language {
-    /// How it spells formulas.
-    pub fn dialect(self) -> &'static dyn Dialect {
-        match self {
-            Self::Wgsl => &Wgsl,
-            Self::Glsl => &Glsl,
-            Self::Hlsl => &Hlsl,
-        }
-    }
-
-    /// A literal that parses back to the same bits: the shortest decimal that names the f32.
-    pub(super) fn literal(self, x: f32) -> String {
-        match self {
-            Self::Wgsl | Self::Hlsl => format!("{x:?}f"),
-            Self::Glsl => format!("{x:?}"),
-        }
-    }
-
-    /// `let name = value;`
-    fn bind(self, kind: &str, name: &str, value: &str) -> String {
-        match self {
-            Self::Wgsl => format!("    let {name} = {value};\n"),
-            Self::Glsl | Self::Hlsl => format!("    {kind} {name} = {value};\n"),
-        }
-    }
-
-    fn function(self, name: &str, width: usize) -> String {
-        match self {
-            Self::Wgsl => format!("fn {name}(f: array<f32, {width}>) -> f32 {{\n"),
-            Self::Glsl | Self::Hlsl => format!("float {name}(float f[{width}]) {{\n"),
-        }
-    }
-}
-
 /// Numbers of one precision in one language.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) struct Numbers {
-    pub language: Language,
-    pub precision: Precision,
+#[derive(Clone, Copy)]
+struct Numbers {
+    language: &'static dyn ShadingLanguage,
+    precision: Precision,
 }
 
 impl Numbers {
     fn scalar(self) -> &'static str {
-        match (self.language, self.precision) {
-            (Language::Wgsl, Precision::F32) => "f32",
-            (Language::Wgsl, Precision::F16) => "f16",
-            (_, Precision::F32) => "float",
-            (_, Precision::F16) => "half",
-        }
+        self.language.scalar(self.precision)
     }
 
     fn vec4(self) -> String {
-        match self.language {
-            Language::Wgsl => format!("vec4<{}>", self.scalar()),
-            Language::Glsl => "vec4".to_owned(),
-            Language::Hlsl => format!("{}4", self.scalar()),
-        }
+        self.language.vec4(self.precision)
     }
 
     fn mat4(self) -> String {
-        match self.language {
-            Language::Wgsl => format!("mat4x4<{}>", self.scalar()),
-            Language::Glsl => "mat4".to_owned(),
-            Language::Hlsl => format!("{}4x4", self.scalar()),
-        }
+        self.language.mat4(self.precision)
     }
 
     /// A literal of the number as this precision keeps it.
@@ -114,43 +56,22 @@ impl Numbers {
     }
 
     fn splat(self, x: f32) -> String {
-        match self.language {
-            Language::Wgsl | Language::Glsl => format!("{}({})", self.vec4(), self.literal(x)),
-            Language::Hlsl => self.vector([x; 4]),
-        }
+        self.language.splat(self.precision, &self.literal(x))
     }
 
-    /// A block of weights times four activations. Blocks are written input by input: the columns of a matrix, but
-    /// HLSL's rows.
-    fn product(self, block: &str, activations: &str) -> String {
-        match self.language {
-            Language::Wgsl | Language::Glsl => format!("{block} * {activations}"),
-            Language::Hlsl => format!("mul({activations}, {block})"),
-        }
-    }
-
-    /// `const NAME: TYPE = value;` of a scalar.
-    pub fn scalar_constant(self, name: &str, value: f32) -> String {
-        match self.language {
-            Language::Wgsl => format!("const {name}: {} = {};\n", self.scalar(), self.literal(value)),
-            Language::Glsl => format!("const float {name} = {};\n", self.literal(value)),
-            Language::Hlsl => format!("static const {} {name} = {};\n", self.scalar(), self.literal(value)),
-        }
+    fn scalar_constant(self, name: &str, value: f32) -> String {
+        self.language
+            .scalar_constant(self.precision, name, &self.literal(value))
     }
 
     /// A constant array; items are written several to a line.
     fn array_constant(self, name: &str, element: &str, items: &[String], per_line: usize) -> String {
-        let n = items.len();
-        let (head, end) = match self.language {
-            Language::Wgsl => (format!("const {name} = array<{element}, {n}>(\n"), "\n);\n"),
-            Language::Glsl => (format!("const {element} {name}[{n}] = {element}[{n}](\n"), "\n);\n"),
-            Language::Hlsl => (format!("static const {element} {name}[{n}] = {{\n"), "\n};\n"),
-        };
+        let [head, end] = self.language.array_constant(name, element, items.len());
         let lines: Vec<String> = items
             .chunks(per_line)
             .map(|line| format!("    {}", line.join(", ")))
             .collect();
-        head + &lines.join(",\n") + end
+        head + &lines.join(",\n") + &end
     }
 }
 
@@ -252,10 +173,6 @@ pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Stri
         precision,
         limit,
     };
-    let mut text = String::new();
-    if language == Language::Wgsl && precision == Precision::F16 {
-        text += "enable f16;\n\n";
-    }
     let functions = Source::new(language.dialect(), "nmt");
     let shader_calls = &mlp.feature_set().spec().shader;
     (shader_calls.write_features)(&functions);
@@ -266,18 +183,9 @@ pub fn source(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Stri
     }
     functions.between(&body);
     (shader_calls.write_answers)(&functions);
-    text += functions.into_text().trim_start_matches('\n');
-    text += &calls::source(language, mlp.feature_set());
+    calls::write(&functions, mlp.feature_set().spec());
     let guard = include_guard(mlp.name());
-    let text = match language {
-        Language::Wgsl => text,
-        // A second inclusion is none. GLSL ES has no default precision in fragment shaders.
-        Language::Glsl => format!(
-            "#ifndef {guard}\n#define {guard}\n\n#ifdef GL_ES\nprecision highp float;\nprecision highp \
-                int;\n#endif\n\n{text}\n#endif\n"
-        ),
-        Language::Hlsl => format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"),
-    };
+    let text = language.file(functions.into_text().trim_start_matches('\n'), precision, &guard);
     let head = comment(&header(mlp, format, prefix, limit));
     Ok(match prefix {
         Some(prefix) => head + &prefix.apply(&text),
@@ -337,15 +245,13 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
         },
     ];
     lines.extend(prefix.map(Prefix::line));
-    if format.language() == Some(Language::Hlsl) {
-        lines.push(
-            "HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, an \
-            out float[n]."
-                .to_owned(),
-        );
-    }
+    lines.extend(
+        format
+            .language()
+            .map_or_else(Vec::new, |language| language.notes(format.precision())),
+    );
     if let Some(limit) = limit {
-        lines.extend(half_lines(format.language(), limit, half_bounds(set)));
+        lines.extend(half_lines(limit, half_bounds(set)));
     }
     if let Some(pruned) = &mlp.provenance.pruned {
         lines.extend(pruned_lines(pruned, format.form()));
@@ -387,22 +293,17 @@ pub(super) fn header(mlp: &Mlp, format: Format, prefix: Option<&Prefix>, limit: 
 }
 
 /// What is to be known of half precision.
-fn half_lines(language: Option<Language>, limit: f32, (worst, mean): (f64, f64)) -> Vec<String> {
-    let mut lines =
-        vec![
+fn half_lines(limit: f32, (worst, mean): (f64, f64)) -> [String; 3] {
+    [
         "Precision: weights and activations of the hidden layers are f16; features, the last layer and the answer are \
-            f32.".to_owned(),
+            f32."
+            .to_owned(),
         format!("The hidden layers see features clamped to [-{limit:?}, {limit:?}], within which no sum can overflow."),
-        format!("Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most \
-            {mean} in the mean."),
-    ];
-    if language == Some(Language::Hlsl) {
-        lines.push(
-            "DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."
-                .to_owned(),
-        );
-    }
-    lines
+        format!(
+            "Error of the answer against f64 on random rows of the training distribution: at most {worst}, at most \
+                {mean} in the mean."
+        ),
+    ]
 }
 
 /// What the header's line that says which units were taken out begins with.
@@ -473,7 +374,7 @@ pub(crate) fn block(dense: &Dense, g: usize, i: usize) -> [[f32; 4]; 4] {
 /// A network about to become source.
 struct Network<'a> {
     mlp: &'a Mlp,
-    language: Language,
+    language: &'static dyn ShadingLanguage,
     precision: Precision,
     /// Greatest absolute feature that hidden layers in f16 see.
     limit: Option<f32>,
@@ -507,7 +408,7 @@ impl Network<'_> {
         } else {
             self.of_layer(index - 1)
         };
-        if before == self.of_layer(index) {
+        if before.precision == self.of_layer(index).precision {
             value
         } else {
             format!("{}({value})", kind(self.of_layer(index)))
@@ -525,8 +426,20 @@ impl Network<'_> {
         let _ = write!(
             text,
             "\n// {what}, in [0, 1].\n{}",
-            self.language.function(network_function(set), set.width())
+            self.function(network_function(set))
         );
+    }
+
+    /// The head of a function of the features f.
+    fn function(&self, name: &str) -> String {
+        let features = Type::Reals(self.mlp.feature_set().width());
+        let number = self.language.type_name(Type::Real);
+        format!("{} {{\n", self.language.head(name, &[("f", features)], &number))
+    }
+
+    /// A feature by its column.
+    fn feature(&self, column: usize) -> String {
+        component("f", self.mlp.feature_set().width(), column)
     }
 
     fn plain(&self, text: &mut String) {
@@ -549,11 +462,12 @@ impl Network<'_> {
                 let clamped = self.limit.filter(|_| index == 0 && index != self.last());
                 let value = match (index, clamped) {
                     (0, Some(limit)) => format!(
-                        "clamp(f[{i}], {}, {})",
+                        "clamp({}, {}, {})",
+                        self.feature(i),
                         language.literal(-limit),
                         language.literal(limit)
                     ),
-                    (0, None) => format!("f[{i}]"),
+                    (0, None) => self.feature(i),
                     _ => format!("h{index}_{i}"),
                 };
                 let converted = self.converted(index, single, value.clone());
@@ -604,7 +518,8 @@ impl Network<'_> {
         let mut text = "    return 1.0 / (1.0 + exp(min(-logit, 80.0)));\n}\n".to_owned();
         if let Answer::AbsorbanceShare { column, offset } = self.mlp.feature_set().answer() {
             let absorbance = format!(
-                "max(exp(min(f[{column}], {})) - {}, 0.0)",
+                "max(exp(min({}, {})) - {}, 0.0)",
+                self.feature(column),
                 language.literal(MAX_LOG_ABSORBANCE),
                 language.literal(offset)
             );
@@ -612,7 +527,7 @@ impl Network<'_> {
                 text,
                 "\n// Transmittance in front of the fragment with features f, in [0, 1].\n{}{}    return \
                     exp(-min(absorbance * {SHARE}(f), 80.0));\n}}\n",
-                language.function(ENTRY, self.mlp.feature_set().width()),
+                self.function(ENTRY),
                 language.bind("float", "absorbance", &absorbance),
             );
         }
@@ -657,6 +572,26 @@ impl Network<'_> {
         }
     }
 
+    /// Features 4i to 4i + 3; behind the last of them the constant that carries folded biases, then padding.
+    fn four_features(&self, i: usize) -> String {
+        let width = self.mlp.feature_set().width();
+        let single = self.numbers(Precision::F32);
+        let filled = (width - 4 * i).min(4);
+        let whole = if width > 4 { format!("f[{i}]") } else { "f".to_owned() };
+        if filled == 4 {
+            return whole;
+        }
+        // All of a value that is no matrix, the first lanes of a matrix's last vector.
+        let lanes = if width > 4 {
+            format!("{whole}.{}", &"xyz"[..filled])
+        } else {
+            whole
+        };
+        let rest = (filled..4).map(|lane| single.literal(if lane == filled { 1.0 } else { 0.0 }));
+        let rest: Vec<String> = rest.collect();
+        format!("{}({lanes}, {})", single.vec4(), rest.join(", "))
+    }
+
     fn packed(&self, text: &mut String) {
         let language = self.language;
         self.packed_constants(text);
@@ -664,12 +599,7 @@ impl Network<'_> {
         let width = self.mlp.feature_set().width();
         let single = self.numbers(Precision::F32);
         for i in 0..groups(width) {
-            let lane = |c: usize| match 4 * i + c {
-                input if input < width => format!("f[{input}]"),
-                // The constant that carries folded biases, then padding.
-                input => single.literal(if input == width { 1.0 } else { 0.0 }),
-            };
-            let mut value = format!("{}({})", single.vec4(), [0, 1, 2, 3].map(lane).join(", "));
+            let mut value = self.four_features(i);
             if let Some(limit) = self.limit.filter(|_| self.last() > 0) {
                 value = format!("clamp({value}, {}, {})", single.splat(-limit), single.splat(limit));
             }
@@ -695,7 +625,7 @@ impl Network<'_> {
                 // A block of nothing but zeros adds nothing.
                 let used = (0..inputs).filter(|&i| block(dense, g, i).iter().flatten().any(|&w| w != 0.0));
                 let terms =
-                    used.map(|i| numbers.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
+                    used.map(|i| language.product(&format!("{weights}[{}]", g * inputs + i), &format!("h{index}_{i}")));
                 let sum: Vec<String> = (!folded)
                     .then(|| format!("{}[{g}]", biases_name(index)))
                     .into_iter()
@@ -724,6 +654,7 @@ impl Network<'_> {
 mod tests {
     use super::*;
     use crate::export::Target;
+    use crate::export::dialect::Glsl;
     use crate::model::Provenance;
     use crate::model::mlp::tests::random_mlp;
 
@@ -795,7 +726,7 @@ mod tests {
             bits = bits.wrapping_mul(1664525).wrapping_add(1013904223);
             let x = f32::from_bits(bits);
             if x.is_finite() {
-                let text = Language::Glsl.literal(x);
+                let text = Glsl.literal(x);
                 assert_eq!(text.parse::<f32>().unwrap().to_bits(), x.to_bits());
                 // Readers that go through f64, as JSON and constant evaluators do.
                 assert_eq!((text.parse::<f64>().unwrap() as f32).to_bits(), x.to_bits(), "{text}");

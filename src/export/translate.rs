@@ -1,10 +1,12 @@
 //! MSL and SPIR-V, which naga makes of the packed WGSL.
 
+use super::dialect::Wgsl;
 use super::shader::{self, ENTRY};
 use super::{ExportError, Format, Precision, Prefix};
 use crate::features::FeatureSet;
 use crate::features::spec::ShaderCalls;
 use crate::model::Mlp;
+use crate::numeric::source::Dialect;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, back};
 
@@ -48,6 +50,7 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
     };
     let source = shader::source(mlp, format, prefix)?;
     let text = msl(&source, &back::msl::Options::default()).map_err(refused)?;
+    let text = prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
     let guard = shader::include_guard(mlp.name());
     let guard = prefix.map_or(guard.clone(), |prefix| prefix.apply(&guard));
     let more = [
@@ -120,7 +123,14 @@ fn msl(wgsl: &str, options: &back::msl::Options) -> Result<String, String> {
                 && !words.contains(bare)
         });
         out += &rest[..at];
-        out += bare.unwrap_or(word);
+        // A type that naga has named gets a name of ours, which takes a prefix.
+        match word
+            .strip_prefix("type_")
+            .filter(|n| n.chars().all(|c| c.is_ascii_digit()))
+        {
+            Some(number) => out += &format!("NmtType{number}"),
+            None => out += bare.unwrap_or(word),
+        }
         rest = &rest[end..];
     }
     Ok(out + rest)
@@ -144,16 +154,13 @@ pub fn with_entry_points(source: &str, set: FeatureSet) -> String {
         ..
     } = set.spec().shader;
     let (width, arguments) = (set.width(), names.len() + set.moments());
-    let loads = |base: usize, n: usize| {
-        (base..base + n)
-            .map(|i| format!("nmt_in[first + {i}u]"))
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let call = call
-        .replace("HEAD", &loads(0, names.len()))
-        .replace("TAIL", &loads(names.len(), set.moments()));
-    let rows = format!("{ENTRY}(array<f32, {width}>({}))", loads(0, width));
+    let loads =
+        |base: usize, n: usize| -> Vec<String> { (base..base + n).map(|i| format!("nmt_in[first + {i}u]")).collect() };
+    let mut call = call.replace("HEAD", &loads(0, names.len()).join(", "));
+    if set.moments() > 0 {
+        call = call.replace("TAIL", &Wgsl.numbers(&loads(names.len(), set.moments())));
+    }
+    let rows = format!("{ENTRY}({})", Wgsl.numbers(&loads(0, width)));
     let mut text = format!(
         "{source}
 @group(0) @binding(0) var<storage, read> nmt_in: array<f32>;

@@ -77,7 +77,7 @@ fn write_features(source: &Source) {
     let [view_z, v_min, v_max, alpha_sum, n] = names.map(|name| source.real(name));
     let relative = ((view_z - v_min) / (v_max - v_min).max(c(1e-30))).clamp(c(0.0), c(1.0));
     let depth = Real::select(v_max.gt(v_min), relative, view_z.like(0.0)).named("depth");
-    source.return_array(&[depth, alpha_sum, n]);
+    source.return_numbers(&[depth, alpha_sum, n]);
 }
 
 /// Linear depth relative to a range: d = (v − v0)/(v1 − v0), clamped to [0, 1]; 0 where v0 = v1.

@@ -59,7 +59,7 @@ pub const SPEC: FeatureSpec = FeatureSpec {
         write_features,
         write_answers: |_| (),
         arguments: &["w", "w_min", "w_max", "n", "b0"],
-        answer: "nmt_transmittance(nmt_features(HEAD, vec4<f32>(TAIL)))",
+        answer: "nmt_transmittance(nmt_features(HEAD, TAIL))",
     },
 };
 
@@ -98,7 +98,7 @@ fn write_features(source: &Source) {
         term = (term * z).named_at("b", k + 1);
         term
     });
-    source.return_array(&b);
+    source.return_numbers(&b);
     let about = "Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and \
                  greatest window depth, number of fragments, total absorbance b0 and moments b1..b4.";
     let names = SPEC.shader.arguments;
@@ -111,7 +111,7 @@ fn write_features(source: &Source) {
     let [w, least, greatest, n, b0] = ["w", "w_min", "w_max", "n", "b0"].map(|name| source.real(name));
     let range = expm1(greatest - least).max(c(1e-30));
     let d = Real::select(greatest.gt(least), expm1(w - least) / range, w.like(0.0)).named("d");
-    source.return_array(&[[d, n, b0].as_slice(), &source.vec4("b1234")].concat());
+    source.return_numbers(&[[d, n, b0].as_slice(), &source.vec4("b1234")].concat());
 }
 
 /// Rows of some fragments of a pixel, every one of which needs the network; see [`Extractor::sample`].

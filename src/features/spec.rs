@@ -62,6 +62,14 @@ pub struct FeatureSpec {
     pub shader: ShaderCalls,
 }
 
+impl FeatureSpec {
+    /// Whether two passes that blend their sums are all that an answer needs, and the answer is a transmittance: such
+    /// sets have calls and whole passes in shader source.
+    pub fn has_blended_passes(&self) -> bool {
+        self.core.is_none() && self.target == Target::Transmittance
+    }
+}
+
 /// What draws rows of some fragments of a pixel: at most so many of them, by random numbers of the pixel's own.
 pub type Sampler = fn(&Extractor, Pixel<'_>, usize, &mut Stream, &mut Sampled);
 
@@ -117,6 +125,6 @@ pub struct ShaderCalls {
     pub write_answers: fn(&Source),
     /// What a fragment's row of arguments holds, the moments not counted, which come last.
     pub arguments: &'static [&'static str],
-    /// The answer to such a row in WGSL, with `HEAD` for the arguments and `TAIL` for the moments.
+    /// The answer to such a row in WGSL, with `HEAD` for the arguments and `TAIL` for the moments as one value.
     pub answer: &'static str,
 }

@@ -1,6 +1,8 @@
 //! An exported function run over rows in a compute shader.
 
 use super::device::{Dispatch, Gpu, GpuError, groups};
+use crate::export::dialect::{Glsl, Wgsl};
+use crate::numeric::source::Dialect;
 
 /// Source of an exported function.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +16,7 @@ pub enum Source<'a> {
 /// Entry point of the wrappers below.
 const ENTRY: &str = "nmt_rows";
 
-/// Runs `function(f: array<f32, width>) -> f32` once a row, as the shader source has it.
+/// Runs a function of `width` numbers in one value ([`Type::Reals`](crate::numeric::source::Type::Reals)) once a row.
 ///
 /// # Shapes
 /// `rows: [N, W]`, row by row; the result is `[N]`.
@@ -54,13 +56,12 @@ pub fn run_rows(
     gpu.download(&output, count)
 }
 
-fn loads(width: usize, wgsl: bool) -> String {
+fn loads(width: usize, wgsl: bool) -> Vec<String> {
     let base = if wgsl { "row * " } else { "int(row) * " };
     let suffix = if wgsl { "u" } else { "" };
     (0..width)
         .map(|i| format!("nmt_rows_in[{base}{width}{suffix} + {i}{suffix}]"))
-        .collect::<Vec<_>>()
-        .join(", ")
+        .collect()
 }
 
 /// The source with a compute shader behind it. A directive such as `enable f16;` stays first.
@@ -75,11 +76,11 @@ fn wrap_wgsl(text: &str, function: &str, width: usize) -> String {
 fn {ENTRY}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {{
     let row = id.x + id.y * groups.x * 64u;
     if (row < nmt_rows_count[0]) {{
-        nmt_rows_out[row] = {function}(array<f32, {width}>({loads}));
+        nmt_rows_out[row] = {function}({row});
     }}
 }}
 ",
-        loads = loads(width, true)
+        row = Wgsl.numbers(&loads(width, true))
     )
 }
 
@@ -95,11 +96,11 @@ layout(std430, set = 0, binding = 2) readonly buffer NmtCount {{ uint nmt_rows_c
 void main() {{
     uint row = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u;
     if (row < nmt_rows_count[0]) {{
-        nmt_rows_out[int(row)] = {function}(float[{width}]({loads}));
+        nmt_rows_out[int(row)] = {function}({numbers});
     }}
 }}
 ",
-        loads = loads(width, false)
+        numbers = Glsl.numbers(&loads(width, false))
     )
 }
 

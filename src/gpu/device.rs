@@ -11,7 +11,8 @@ use wgpu::util::DeviceExt;
 pub enum GpuError {
     /// There is no adapter.
     #[error(
-        "no GPU adapter: {0}; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1)"
+        "no GPU adapter: {0}; install a Vulkan driver, or Mesa's lavapipe (Debian: mesa-vulkan-drivers libvulkan1), or \
+         build with --features gles for OpenGL"
     )]
     NoAdapter(String),
     /// The adapter gives no device.
@@ -113,7 +114,7 @@ pub fn groups(invocations: u64) -> [u32; 2] {
 
 impl Gpu {
     /// Opens the adapter that the environment names (`WGPU_ADAPTER_NAME`, part of its name; `WGPU_BACKEND`), or else
-    /// the most powerful; OpenGL's only where there is no other.
+    /// the most powerful; OpenGL's only with the cargo feature `gles` and where there is no other.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::NoDevice`].

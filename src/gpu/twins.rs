@@ -215,7 +215,7 @@ fn hard_pixels() {
 fn roots_are_those_of_the_cpu() {
     let Some(gpu) = gpu() else { return };
     let x: Vec<f32> = (0..=10_000).map(|i| i as f32 / 5000.0 - 1.0).collect();
-    let call = format!("{ROOTS}\nfn third(f: array<f32, 1>) -> f32 {{ return cosine_of_third(f[0]); }}");
+    let call = format!("{ROOTS}\nfn third(f: f32) -> f32 {{ return cosine_of_third(f); }}");
     let found = run_rows(gpu, Source::Wgsl(&call), "third", &x, 1).unwrap();
     // Near −1 the argument's own rounding counts, half an ulp of 1 + x through a square root.
     let worst = x
@@ -245,7 +245,7 @@ fn roots_are_those_of_the_cpu() {
             rows.extend(c[..degree].iter().map(|&c| c as f32));
         }
         for index in 0..degree {
-            let call = format!("{ROOTS}\nfn nth(f: array<f32, {degree}>) -> f32 {{ return {roots}[{index}]; }}");
+            let call = format!("{ROOTS}\nfn nth(f: vec{degree}<f32>) -> f32 {{ return {roots}[{index}]; }}");
             let found: Vec<f64> = run_rows(gpu, Source::Wgsl(&call), "nth", &rows, degree)
                 .unwrap()
                 .into_iter()

@@ -2,8 +2,7 @@
 //! there.
 
 use super::file::{FileError, Replace, write_atomically};
-use ndarray::{ArrayD, ArrayView, ArrayViewD, Dimension};
-use ndarray_npy::{ViewElement, ViewNpyError, ViewNpyExt, WritableElement, WriteNpyExt};
+use ndarray::{ArrayD, ArrayView, Dimension, ShapeBuilder};
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
@@ -50,55 +49,209 @@ pub enum NpyError {
 }
 
 /// An element type that can be read from and written to a NumPy file.
-pub trait Element: ViewElement + WritableElement + Copy + Default + 'static {
+pub trait Element: bytemuck::Pod + Default {
     /// NumPy's name of the type.
     const NAME: &'static str;
+    /// What headers write of it behind the sign of the byte order: `f4` for example.
+    const KIND: &'static str;
+
+    /// The elements of little-endian bytes, as many as there are whole ones.
+    fn read(bytes: &[u8]) -> Vec<Self>;
+
+    /// One element's bytes, the lowest first.
+    fn write(self, w: &mut dyn Write) -> std::io::Result<()>;
 }
-impl Element for f32 {
-    const NAME: &'static str = "float32";
+
+macro_rules! elements {
+    ($($kind:ident is $name:literal, $code:literal;)*) => {$(
+        impl Element for $kind {
+            const NAME: &'static str = $name;
+            const KIND: &'static str = $code;
+
+            fn read(bytes: &[u8]) -> Vec<Self> {
+                bytes.as_chunks().0.iter().map(|b| Self::from_le_bytes(*b)).collect()
+            }
+
+            fn write(self, w: &mut dyn Write) -> std::io::Result<()> {
+                w.write_all(&self.to_le_bytes())
+            }
+        }
+    )*};
 }
-impl Element for f64 {
-    const NAME: &'static str = "float64";
+elements! {
+    f32 is "float32", "f4";
+    f64 is "float64", "f8";
+    u8 is "uint8", "u1";
+    u16 is "uint16", "u2";
+    u32 is "uint32", "u4";
+    u64 is "uint64", "u8";
+    i8 is "int8", "i1";
+    i16 is "int16", "i2";
+    i32 is "int32", "i4";
+    i64 is "int64", "i8";
 }
-impl Element for u32 {
-    const NAME: &'static str = "uint32";
+
+/// What every file begins with.
+const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// The elements begin at a multiple of this \[bytes\].
+///
+/// # Source
+/// NumPy's description of the format (`numpy.lib.format`), which asks for it so that a file can be mapped into memory.
+const ALIGNMENT: usize = 64;
+
+/// What a `.npy` file says before its elements.
+#[derive(Debug, Clone, PartialEq)]
+struct Header {
+    /// The type of the elements, `<f4` for example.
+    kind: String,
+    /// Whether the first index runs fastest.
+    fortran_order: bool,
+    /// The array's shape.
+    shape: Vec<usize>,
+    /// Bytes in front of the elements.
+    length: usize,
 }
-impl Element for u64 {
-    const NAME: &'static str = "uint64";
+
+/// The literals of Python that stand in a header, taken off the front of a text.
+struct Literals<'a>(&'a str);
+
+impl<'a> Literals<'a> {
+    /// Whether the next is this sign or word, which is then taken.
+    fn take(&mut self, word: &str) -> bool {
+        self.0 = self.0.trim_start();
+        match self.0.strip_prefix(word) {
+            Some(rest) => self.0 = rest,
+            None => return false,
+        }
+        true
+    }
+
+    /// A string without escapes.
+    fn text(&mut self) -> Option<&'a str> {
+        let quote = ["'", "\""].into_iter().find(|quote| self.take(quote))?;
+        let (text, rest) = self.0.split_once(quote)?;
+        self.0 = rest;
+        Some(text)
+    }
+
+    fn truth(&mut self) -> Option<bool> {
+        match self.take("True") {
+            true => Some(true),
+            false => self.take("False").then_some(false),
+        }
+    }
+
+    /// A tuple of sizes; Python 2 wrote `3L`.
+    fn sizes(&mut self) -> Option<Vec<usize>> {
+        let mut sizes = Vec::new();
+        if !self.take("(") {
+            return None;
+        }
+        while !self.take(")") {
+            let digits = self.0.bytes().take_while(u8::is_ascii_digit).count();
+            sizes.push(self.0[..digits].parse().ok()?);
+            self.0 = &self.0[digits..];
+            self.take("L");
+            if !self.take(",") {
+                return self.take(")").then_some(sizes);
+            }
+        }
+        Some(sizes)
+    }
 }
-impl Element for i32 {
-    const NAME: &'static str = "int32";
-}
-impl Element for i64 {
-    const NAME: &'static str = "int64";
-}
-impl Element for u8 {
-    const NAME: &'static str = "uint8";
-}
-impl Element for i8 {
-    const NAME: &'static str = "int8";
-}
-impl Element for u16 {
-    const NAME: &'static str = "uint16";
-}
-impl Element for i16 {
-    const NAME: &'static str = "int16";
+
+impl Header {
+    /// Reads the header of a file; what is wrong with it otherwise.
+    fn read(bytes: &[u8]) -> Result<Self, String> {
+        if bytes.len() >= MAGIC.len() && !bytes.starts_with(MAGIC) {
+            return Err("it does not begin as a NumPy array does".to_owned());
+        }
+        if !header_is_whole(bytes) {
+            return Err("the file ends within its header; it is truncated, damaged or of another kind".to_owned());
+        }
+        // A 16-bit length in version 1 of the format, 32 bits in 2 and 3.
+        let (start, said) = match (bytes[6], bytes[7]) {
+            (1, 0) => (10, u32::from(u16::from_le_bytes([bytes[8], bytes[9]]))),
+            (2 | 3, 0) => (12, u32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]])),
+            (major, minor) => return Err(format!("version {major}.{minor} of the format is not known")),
+        };
+        let length = start + said as usize;
+        let text = std::str::from_utf8(&bytes[start..length]).map_err(|_| "its header is not text".to_owned())?;
+        let (kind, fortran_order, shape) = Self::dictionary(text)?;
+        Ok(Self {
+            kind,
+            fortran_order,
+            shape,
+            length,
+        })
+    }
+
+    /// The three entries of a header's dictionary, in any order.
+    fn dictionary(text: &str) -> Result<(String, bool, Vec<usize>), String> {
+        let damaged = || format!("its header is not what NumPy writes: {:.100}", text.trim());
+        let (mut kind, mut order, mut shape) = (None, None, None);
+        let mut rest = Literals(text);
+        if !rest.take("{") {
+            return Err(damaged());
+        }
+        while !rest.take("}") {
+            let key = rest.text().ok_or_else(damaged)?;
+            if !rest.take(":") {
+                return Err(damaged());
+            }
+            match key {
+                "descr" if rest.take("[") || rest.take("(") => {
+                    return Err("its elements consist of several fields".to_owned());
+                }
+                "descr" => kind = Some(rest.text().ok_or_else(damaged)?.replace('=', "<")),
+                "fortran_order" => order = Some(rest.truth().ok_or_else(damaged)?),
+                "shape" => shape = Some(rest.sizes().ok_or_else(damaged)?),
+                _ => return Err(damaged()),
+            }
+            if !rest.take(",") && !rest.0.trim_start().starts_with('}') {
+                return Err(damaged());
+            }
+        }
+        match (kind, order, shape, rest.0.trim()) {
+            (Some(kind), Some(order), Some(shape), "") => Ok((kind, order, shape)),
+            _ => Err(damaged()),
+        }
+    }
+
+    /// Whether the elements are of this type, with the lowest byte first.
+    fn holds<T: Element>(&self) -> bool {
+        self.kind == format!("<{}", T::KIND) || size_of::<T>() == 1 && self.kind == format!("|{}", T::KIND)
+    }
+
+    /// The bytes of a header of this type and shape.
+    fn bytes<T: Element>(fortran_order: bool, shape: &[usize]) -> Vec<u8> {
+        let byte_order = if size_of::<T>() == 1 { '|' } else { '<' };
+        let order = if fortran_order { "True" } else { "False" };
+        let sizes = match shape {
+            [size] => format!("{size},"),
+            sizes => sizes.iter().map(usize::to_string).collect::<Vec<_>>().join(", "),
+        };
+        let text = format!(
+            "{{'descr': '{byte_order}{}', 'fortran_order': {order}, 'shape': ({sizes})}}",
+            T::KIND
+        );
+        // At least one space, and a new line at the end. ndarray's arrays have few enough dimensions for version 1.
+        let used = MAGIC.len() + 4 + text.len() + 1;
+        let spaces = ALIGNMENT - used % ALIGNMENT;
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend([1, 0]);
+        bytes.extend(((text.len() + spaces + 1) as u16).to_le_bytes());
+        bytes.extend(text.bytes());
+        bytes.resize(bytes.len() + spaces, b' ');
+        bytes.push(b'\n');
+        bytes
+    }
 }
 
 /// The type of a file's elements as its header writes it, `<f4` for example; none where no header can be read.
 fn kind(bytes: &[u8]) -> Option<String> {
-    let start = match bytes.get(6)? {
-        1 => 10,
-        _ => 12,
-    };
-    let header = String::from_utf8_lossy(bytes.get(start..bytes.len().min(start + 4096))?).into_owned();
-    let after = header.split_once("'descr'")?.1.split_once(['\'', '[', '\n'])?;
-    let name: String = after
-        .1
-        .chars()
-        .take_while(|c| c.is_ascii_alphanumeric() || "<>|=".contains(*c))
-        .collect();
-    (!name.is_empty()).then(|| name.replace('=', "<"))
+    Some(Header::read(bytes).ok()?.kind)
 }
 
 /// NumPy's name of a type that a header writes as `<f4`; what it writes where that is not known.
@@ -160,26 +313,43 @@ fn header_is_whole(bytes: &[u8]) -> bool {
 
 /// Decodes the bytes of a `.npy` file, in any memory order; what is wrong otherwise.
 fn decode<T: Element>(bytes: &[u8]) -> Result<ArrayD<T>, String> {
-    if !header_is_whole(bytes) {
-        return Err("the file ends within its header; it is truncated, damaged or of another kind".to_owned());
+    let header = Header::read(bytes)?;
+    if !header.holds::<T>() {
+        return Err(format!("its elements are {}", name_of(&header.kind)));
     }
-    match ArrayViewD::<T>::view_npy(bytes) {
-        Ok(view) => Ok(view.to_owned()),
-        Err(ViewNpyError::MisalignedData) => {
-            // Copy to where the element data is aligned; the header's length is the same, so some shift below the
-            // alignment fits.
-            let mut shifted = vec![0u8; bytes.len() + align_of::<T>()];
-            let mut last = ViewNpyError::MisalignedData;
-            for shift in 0..align_of::<T>() {
-                shifted[shift..shift + bytes.len()].copy_from_slice(bytes);
-                match ArrayViewD::<T>::view_npy(&shifted[shift..shift + bytes.len()]) {
-                    Ok(view) => return Ok(view.to_owned()),
-                    Err(error) => last = error,
-                }
-            }
-            Err(last.to_string())
+    let data = &bytes[header.length..];
+    // ndarray counts in isize, and leaves sizes of zero out.
+    let sizes = header.shape.iter().filter(|&&size| size > 0);
+    let whole = sizes
+        .map(|&size| size as u64)
+        .try_fold(size_of::<T>() as u64, u64::checked_mul);
+    if whole.is_none_or(|bytes| isize::try_from(bytes).is_err()) {
+        return Err(format!(
+            "its header promises an array of {:?}, which no memory holds",
+            header.shape
+        ));
+    }
+    let expected = header.shape.iter().product::<usize>() * size_of::<T>();
+    if data.len() != expected {
+        return Err(format!(
+            "its header promises {expected} bytes of elements, and there are {}; it is truncated or damaged",
+            data.len()
+        ));
+    }
+    ArrayD::from_shape_vec(header.shape.set_f(header.fortran_order), T::read(data)).map_err(|e| e.to_string())
+}
+
+/// Writes an array as the bytes of a `.npy` file.
+fn write_array<T: Element, D: Dimension>(array: &ArrayView<'_, T, D>, w: &mut dyn Write) -> std::io::Result<()> {
+    let standard = array.is_standard_layout();
+    let fortran_order = !standard && array.view().reversed_axes().is_standard_layout();
+    w.write_all(&Header::bytes::<T>(fortran_order, array.shape()))?;
+    match array.as_slice_memory_order() {
+        Some(values) if (standard || fortran_order) && cfg!(target_endian = "little") => {
+            w.write_all(bytemuck::cast_slice(values))
         }
-        Err(error) => Err(error.to_string()),
+        _ if fortran_order => array.view().reversed_axes().iter().try_for_each(|v| v.write(w)),
+        _ => array.iter().try_for_each(|v| v.write(w)),
     }
 }
 
@@ -210,13 +380,13 @@ pub fn write_npy<T: Element, D: Dimension>(
     replace: Replace,
     array: ArrayView<'_, T, D>,
 ) -> Result<(), FileError> {
-    write_atomically(path, replace, |w| array.write_npy(w).map_err(std::io::Error::other))
+    write_atomically(path, replace, |w| write_array(&array, w))
 }
 
 /// The bytes of a `.npy` file of an array.
 pub fn encode<T: Element, D: Dimension>(array: ArrayView<'_, T, D>) -> Vec<u8> {
     let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).expect("writing to memory cannot fail");
+    write_array(&array, &mut bytes).expect("writing to memory cannot fail");
     bytes
 }
 
@@ -337,7 +507,7 @@ impl<'a> Entry<'a> {
     pub fn streamed<T: Element, D: Dimension + 'a>(array: ArrayView<'a, T, D>) -> Self {
         Self::Streamed {
             bytes: (array.len() * size_of::<T>()) as u64 + 128,
-            write: Box::new(move |w| array.write_npy(w).map_err(std::io::Error::other)),
+            write: Box::new(move |w| write_array(&array, w)),
         }
     }
 
@@ -498,8 +668,130 @@ mod tests {
         long[8..10].fill(0xff);
         let mut newer = good.clone();
         newer[6] = 3;
+        // The type of the elements is not looked for in a header that is not whole.
+        assert!(kind(&good).is_some() && kind(&long).is_none());
         for bytes in [&long[..], &newer[..], &good[..9], &good[..8], &good[..0], &good[..40]] {
             assert!(!header_is_whole(bytes) && decode::<f32>(bytes).unwrap_err().contains("within its header"));
         }
+    }
+    /// The bytes that NumPy 2.2's `numpy.save` and the reference describe, but for a comma that NumPy writes after the
+    /// last entry.
+    #[test]
+    fn headers_as_they_are_written() {
+        let bytes = encode(arr1(&[1.0f32, 2.0]).view());
+        let mut expected = b"\x93NUMPY\x01\x00\x76\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2,)}".to_vec();
+        expected.resize(127, b' ');
+        expected.push(b'\n');
+        expected.extend([0, 0, 0x80, 0x3f, 0, 0, 0, 0x40]);
+        assert_eq!(bytes, expected);
+        for (bytes, text) in [
+            (
+                encode(arr0(7u8).view()),
+                "{'descr': '|u1', 'fortran_order': False, 'shape': ()}",
+            ),
+            (
+                encode(arr2(&[[1i64, 2, 3]]).view()),
+                "{'descr': '<i8', 'fortran_order': False, 'shape': (1, 3)}",
+            ),
+            (
+                encode(arr2(&[[1u16, 2, 3], [4, 5, 6]]).t()),
+                "{'descr': '<u2', 'fortran_order': True, 'shape': (3, 2)}",
+            ),
+        ] {
+            assert!(bytes[10..].starts_with(text.as_bytes()), "{text}");
+            assert_eq!(bytes[8], 0x76, "{text}");
+        }
+    }
+
+    /// Every memory order comes back with the same elements at the same places.
+    #[test]
+    fn memory_orders_come_back() {
+        let a = arr2(&[[1.0f64, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        assert_eq!(decode::<f64>(&encode(a.view())).unwrap(), a.clone().into_dyn());
+        assert_eq!(decode::<f64>(&encode(a.t())).unwrap(), a.t().to_owned().into_dyn());
+        let every_second = a.slice(ndarray::s![.., ..;2]);
+        assert_eq!(
+            decode::<f64>(&encode(every_second)).unwrap(),
+            arr2(&[[1.0f64, 3.0], [4.0, 6.0]]).into_dyn()
+        );
+        let none = ndarray::Array2::<f64>::zeros((0, 3));
+        assert_eq!(decode::<f64>(&encode(none.view())).unwrap().shape(), [0, 3]);
+    }
+
+    /// Headers by other hands: of NumPy, Python 2, other orders and versions; and what they may not say.
+    #[test]
+    fn headers_of_other_programs() {
+        let file = |version: u8, text: &str| {
+            let mut bytes = MAGIC.to_vec();
+            bytes.extend([version, 0]);
+            match version {
+                1 => bytes.extend((text.len() as u16).to_le_bytes()),
+                _ => bytes.extend((text.len() as u32).to_le_bytes()),
+            }
+            bytes.extend(text.bytes());
+            bytes.extend([1u16, 2, 3, 4].iter().flat_map(|v| v.to_le_bytes()));
+            bytes
+        };
+        for (version, text) in [
+            (1, "{'descr': '<u2', 'fortran_order': False, 'shape': (2, 2), }   \n"),
+            (2, "{'shape': (2L, 2L), 'fortran_order': False, 'descr': '=u2'}\n"),
+            (3, "{\"descr\":\"<u2\",\"fortran_order\":False,\"shape\":(2,2,)}"),
+        ] {
+            let read = decode::<u16>(&file(version, text)).unwrap();
+            assert_eq!(read, arr2(&[[1u16, 2], [3, 4]]).into_dyn(), "{text}");
+        }
+        for (version, text, reason) in [
+            (
+                4,
+                "{'descr': '<u2', 'fortran_order': False, 'shape': (4,)}",
+                "version 4.0",
+            ),
+            (
+                1,
+                "{'descr': '<u2', 'fortran_order': False, 'shape': (5,)}",
+                "promises 10 bytes",
+            ),
+            (
+                1,
+                "{'descr': '<u2', 'fortran_order': False, 'shape': (3,)}",
+                "there are 8",
+            ),
+            (1, "{'descr': '<u2', 'fortran_order': False}", "not what NumPy writes"),
+            (
+                1,
+                "{'descr': '<u2', 'fortran_order': 0, 'shape': (4,)}",
+                "not what NumPy writes",
+            ),
+            (
+                1,
+                "{'descr': '<u2', 'fortran_order': False, 'shape': 4}",
+                "not what NumPy writes",
+            ),
+            (
+                1,
+                "{'descr': '<u2' 'fortran_order': False, 'shape': (4,)}",
+                "not what NumPy writes",
+            ),
+            (
+                1,
+                "{'descr': '<u2', 'fortran_order': False, 'shape': (4,)} 1",
+                "not what NumPy writes",
+            ),
+            (1, "['descr', '<u2']", "not what NumPy writes"),
+            (
+                1,
+                "{'descr': [('x', '<u2')], 'fortran_order': False, 'shape': (4,)}",
+                "several fields",
+            ),
+            (1, "{'descr': '<i2', 'fortran_order': False, 'shape': (4,)}", "int16"),
+        ] {
+            let error = decode::<u16>(&file(version, text)).unwrap_err();
+            assert!(error.contains(reason), "{text}: {error}");
+        }
+        assert!(
+            decode::<u16>(b"PK\x03\x04 and so on, which is an archive")
+                .unwrap_err()
+                .contains("begin")
+        );
     }
 }

@@ -36,7 +36,7 @@
 //!   name, or its text is written again at each use. On numbers it does nothing.
 //! - [`Real::note`] puts a comment in front of the next statement of the source.
 //! - [`Real::step`] makes a part of a derivation a function of its own in shader source, defined once; on numbers it is
-//!   the closure that it holds. [`Real::step_array`] is the same for parts that take or give an array.
+//!   the closure that it holds. [`Real::step_array`] is the same for parts that take or give several numbers.
 //! - Words of 32 bits, for packed codes, are [`Real::Word`]: `x.to_bits()`, `word.bits_to_real()`, `word >> 12`,
 //!   `word & 0xfff`.
 //! - Every such function is `#[inline(always)]`, so that it is compiled for the SIMD level of its caller.

@@ -17,8 +17,8 @@ pub const TOOLS: [&str; 9] = [
     "gpu",
     "cuda",
     "python",
-    "chromium",
-    "node",
+    "c++",
+    "browser",
 ];
 
 /// The names in a list that is separated by commas or spaces.

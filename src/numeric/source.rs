@@ -46,37 +46,78 @@ pub enum Type {
     Vec4,
     /// Four words x, y, z, w.
     Word4,
-    /// An array of numbers.
+    /// So many numbers, 16 at most: a number, a vector, or a matrix with a vector for every four, the last of them
+    /// filled up with 0. By value in every language, and no array.
     Reals(usize),
-    /// An array of words.
-    Words(usize),
+}
+
+/// The lanes of a vector.
+const LANES: [&str; 4] = ["x", "y", "z", "w"];
+
+/// Number `i` of the `n` numbers of a value, by its name; see [`Type::Reals`].
+pub fn component(name: &str, n: usize, i: usize) -> String {
+    match n {
+        1 => name.to_owned(),
+        2..=4 => format!("{name}.{}", LANES[i]),
+        _ => format!("{name}[{}].{}", i / 4, LANES[i % 4]),
+    }
+}
+
+/// Numbers with those that follow one another in one vector drawn together: `a.x, b.y, b.z` is `a.x, b.yz`.
+fn swizzled(items: &[String]) -> Vec<String> {
+    let lane = |text: &str| {
+        let (vector, lane) = text.rsplit_once('.')?;
+        let is_name = vector.chars().all(|c| c.is_ascii_alphanumeric() || "_[]".contains(c));
+        Some((vector.to_owned(), LANES.iter().position(|&l| l == lane)?)).filter(|_| is_name)
+    };
+    let mut out: Vec<String> = Vec::new();
+    let mut before = None;
+    for item in items {
+        let found = lane(item);
+        match (&before, &found) {
+            (Some((vector, last)), Some((same, next))) if vector == same && *next == last + 1 => {
+                out.last_mut().expect("an item before").push_str(LANES[*next]);
+            }
+            _ => out.push(item.clone()),
+        }
+        before = found;
+    }
+    out
 }
 
 /// How a shading language spells what formulas are made of.
 pub trait Dialect: Sync {
-    /// The name of a type; of an array, that of its items.
+    /// The name of a type.
     fn type_name(&self, of: Type) -> String;
-    /// A statement that names a value for good; no array.
+    /// A statement that names a value for good.
     fn let_(&self, of: Type, name: &str, value: &str) -> String;
-    /// A statement that makes a variable; no array.
+    /// A statement that makes a variable.
     fn variable(&self, of: Type, name: &str, value: &str) -> String;
-    /// A constant of the module; no array.
+    /// A constant of the module.
     fn constant(&self, of: Type, name: &str, value: &str) -> String;
     /// An expression for one of two values that are both computed.
     fn select(&self, condition: &str, yes: &str, no: &str) -> String;
-    /// The head of a function, up to its brace.
-    fn head(&self, name: &str, parameters: &[(&str, Type)], result: Type) -> String;
-    /// An array as an argument, and the statement that must stand before it, where there is one; `name` is free for it.
-    fn array(&self, of: Type, name: &str, items: &[String]) -> (Option<String>, String);
-    /// The last statements of a function that gives an array.
-    fn return_array(&self, of: Type, items: &[String]) -> Vec<String>;
-    /// Statements that call a function that gives an array, and keep the array under a name.
-    fn call_array(&self, of: Type, name: &str, function: &str, arguments: &[String]) -> Vec<String>;
-    /// A parameter or a variable in languages that put the type first: `float b[4]`.
-    fn parameter(&self, name: &str, of: Type) -> String {
-        match of {
-            Type::Reals(n) | Type::Words(n) => format!("{} {name}[{n}]", self.type_name(of)),
-            _ => format!("{} {name}", self.type_name(of)),
+    /// The head of a function, up to its brace; the result's type by its name.
+    fn head(&self, name: &str, parameters: &[(&str, Type)], result: &str) -> String;
+    /// A structure of values, each with the lines of a comment before it.
+    fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String;
+    /// The last statements of a function that gives a structure of values with these names.
+    fn return_structure(&self, name: &str, values: &[(&str, String)]) -> Vec<String>;
+    /// Numbers as one value of [`Type::Reals`].
+    fn numbers(&self, items: &[String]) -> String {
+        let whole = |n: usize| self.type_name(Type::Reals(n));
+        match items {
+            [number] => number.clone(),
+            [_, _, _, _, _, ..] => {
+                let zero = self.number(0.0);
+                let column = |items: &[String]| {
+                    let items: Vec<String> = (0..4).map(|i| items.get(i).unwrap_or(&zero).clone()).collect();
+                    format!("{}({})", whole(4), swizzled(&items).join(", "))
+                };
+                let columns: Vec<String> = items.chunks(4).map(column).collect();
+                format!("{}({})", whole(items.len()), columns.join(", "))
+            }
+            _ => format!("{}({})", whole(items.len()), swizzled(items).join(", ")),
         }
     }
     /// The bits of a number as a word.
@@ -135,7 +176,8 @@ struct Function {
     depth: usize,
     /// How often each name has been given.
     names: HashMap<String, u32>,
-    result: Type,
+    /// How many numbers the values hold that are no single ones.
+    widths: HashMap<String, usize>,
 }
 
 struct Inner {
@@ -239,24 +281,19 @@ impl Source {
         self.code(self.name(text))
     }
 
-    /// The numbers of an array that is known by its name.
+    /// The numbers of a value of [`Type::Reals`] that is known by its name.
     pub fn reals<const K: usize>(&self, name: &str) -> [Expression<'_>; K] {
-        std::array::from_fn(|k| self.real(&format!("{name}[{k}]")))
-    }
-
-    /// The words of an array that is known by its name.
-    pub fn words<const K: usize>(&self, name: &str) -> [Code<'_>; K] {
-        std::array::from_fn(|k| self.word(&format!("{name}[{k}]")))
+        std::array::from_fn(|k| self.real(&component(name, K, k)))
     }
 
     /// The numbers of a vector that is known by its name.
     pub fn vec4(&self, name: &str) -> [Expression<'_>; 4] {
-        ["x", "y", "z", "w"].map(|lane| self.real(&format!("{name}.{lane}")))
+        self.reals(name)
     }
 
     /// The words of a vector that is known by its name.
     pub fn word4(&self, name: &str) -> [Code<'_>; 4] {
-        ["x", "y", "z", "w"].map(|lane| self.word(&format!("{name}.{lane}")))
+        LANES.map(|lane| self.word(&format!("{name}.{lane}")))
     }
 
     fn expression(&self, node: usize) -> Expression<'_> {
@@ -325,22 +362,63 @@ impl Source {
     /// Begins a function. Its parameters are then known by their names; [`Self::real`] and its like make numbers of
     /// them.
     pub fn begin_function(&self, name: &str, about: &str, parameters: &[(&str, Type)], result: Type) {
+        self.begin_structure_function(name, about, parameters, &self.dialect.type_name(result));
+    }
+
+    /// Begins a function whose result is a type of its own, by the type's name.
+    pub fn begin_structure_function(&self, name: &str, about: &str, parameters: &[(&str, Type)], result: &str) {
         let mut text = String::from("\n");
         wrap(about, 117).iter().for_each(|line| text += &format!("// {line}\n"));
         text += &folded(&format!("{} {{", self.dialect.head(name, parameters, result)), "");
-        let mut names = HashMap::new();
-        for (name, _) in parameters {
+        let (mut names, mut widths) = (HashMap::new(), HashMap::new());
+        for &(name, of) in parameters {
             assert!(
-                names.insert((*name).to_owned(), 1).is_none(),
+                names.insert(name.to_owned(), 1).is_none(),
                 "parameter '{name}' is there already"
             );
+            match of {
+                Type::Reals(n) => drop(widths.insert(name.to_owned(), n)),
+                Type::Vec4 => drop(widths.insert(name.to_owned(), 4)),
+                _ => {}
+            }
         }
         self.inner.borrow_mut().open.push(Function {
             text,
             depth: 0,
             names,
-            result,
+            widths,
         });
+    }
+
+    /// A structure of values, each with a comment.
+    pub fn structure(&self, name: &str, about: &str, fields: &[(&str, &str, Type)]) {
+        self.between("\n");
+        wrap(about, 117)
+            .iter()
+            .for_each(|line| self.between(&format!("// {line}\n")));
+        let fields: Vec<_> = fields
+            .iter()
+            .map(|&(about, name, of)| {
+                let lines = wrap(about, 113);
+                (lines.iter().map(|line| format!("    // {line}\n")).collect(), name, of)
+            })
+            .collect();
+        self.between(&self.dialect.structure(name, &fields));
+    }
+
+    /// Ends the function with a structure of values by their names, each of numbers.
+    pub fn return_structure(&self, name: &str, values: &[(&str, &[Expression<'_>])]) {
+        let values: Vec<(&str, String)> = values
+            .iter()
+            .map(|&(name, items)| (name, self.dialect.numbers(&self.texts(items))))
+            .collect();
+        let statements = self.dialect.return_structure(name, &values);
+        statements.iter().for_each(|statement| self.statement(statement));
+        self.end_function();
+    }
+
+    fn texts(&self, items: &[Expression<'_>]) -> Vec<String> {
+        items.iter().map(|item| self.text(item.node)).collect()
     }
 
     fn end_function(&self) {
@@ -359,26 +437,10 @@ impl Source {
         self.end_function();
     }
 
-    /// Ends the function with an array or a vector of numbers.
-    pub fn return_array(&self, items: &[Expression<'_>]) {
-        let texts: Vec<String> = items.iter().map(|item| self.text(item.node)).collect();
-        let result = self
-            .inner
-            .borrow()
-            .open
-            .last()
-            .expect("a function is being written")
-            .result;
-        if result == Type::Vec4 {
-            self.statement(&format!(
-                "return {}({});",
-                self.dialect.type_name(result),
-                texts.join(", ")
-            ));
-        } else {
-            let statements = self.dialect.return_array(Type::Reals(items.len()), &texts);
-            statements.iter().for_each(|statement| self.statement(statement));
-        }
+    /// Ends the function with several numbers.
+    pub fn return_numbers(&self, items: &[Expression<'_>]) {
+        let value = self.dialect.numbers(&self.texts(items));
+        self.statement(&format!("return {value};"));
         self.end_function();
     }
 
@@ -437,7 +499,24 @@ impl Source {
         self.expression(self.node(format!("{function}({})", arguments.join(", ")), Binding::Atom, false))
     }
 
-    /// An array or a vector that is known by its name, as an argument.
+    /// The numbers that a function gives, under a name.
+    pub fn call_numbers<'s, const K: usize>(
+        &'s self,
+        name: &str,
+        function: &str,
+        arguments: &[Value<'s>],
+    ) -> [Expression<'s>; K] {
+        let call = self.call(function, arguments);
+        let (name, value) = (self.free_name(name), self.text(call.node));
+        self.statement(&self.dialect.let_(Type::Reals(K), &name, &value));
+        let mut inner = self.inner.borrow_mut();
+        let function = inner.open.last_mut().expect("calls stand in a function");
+        function.widths.insert(name.clone(), K);
+        drop(inner);
+        self.reals(&name)
+    }
+
+    /// A value of several numbers that is known by its name, as an argument.
     pub fn whole(&self, name: &str) -> Value<'_> {
         Value {
             source: self,
@@ -445,26 +524,25 @@ impl Source {
         }
     }
 
-    /// An array of numbers as an argument.
-    pub fn array(&self, name: &str, items: &[Expression<'_>]) -> Value<'_> {
-        let texts: Vec<String> = items.iter().map(|item| self.text(item.node)).collect();
-        // The items of an array that has a name are that array.
-        let whole = texts[0].strip_suffix("[0]").filter(|whole| {
-            let is_item = |(k, text): (usize, &String)| *text == format!("{whole}[{k}]");
-            !whole.contains('[') && texts.iter().enumerate().all(is_item)
-        });
-        if let Some(whole) = whole {
-            return self.whole(whole);
-        }
-        let name = self.free_name(name);
-        let (statement, value) = self.dialect.array(Type::Reals(items.len()), &name, &texts);
-        if let Some(statement) = statement {
-            self.statement(&statement);
+    /// Several numbers as one argument.
+    pub fn numbers(&self, items: &[Expression<'_>]) -> Value<'_> {
+        let texts = self.texts(items);
+        if let Some(whole) = self.whole_of(&texts) {
+            return self.whole(&whole);
         }
         Value {
             source: self,
-            node: self.node(value, Binding::Atom, false),
+            node: self.node(self.dialect.numbers(&texts), Binding::Atom, false),
         }
+    }
+
+    /// The name of the value whose numbers these are, all of them in order.
+    fn whole_of(&self, texts: &[String]) -> Option<String> {
+        let inner = self.inner.borrow();
+        let (name, _) = texts.first()?.split_once(['.', '['])?;
+        let width = *inner.open.last()?.widths.get(name)?;
+        let all = (0..width).map(|i| component(name, width, i));
+        all.eq(texts.iter().cloned()).then(|| name.to_owned())
     }
 
     fn let_(&self, of: Type, name: &str, node: usize) -> usize {
@@ -843,18 +921,13 @@ impl<'s> Real for Expression<'s> {
             }
             source.begin_function(&function, about, &list, Type::Reals(M));
             let items = body(parameters.map(|(name, _)| source.real(name)), source.reals(array.0));
-            source.return_array(&items);
+            source.return_numbers(&items);
         }
-        let mut arguments: Vec<String> = parameters.iter().map(|(_, value)| source.text(value.node)).collect();
+        let mut arguments: Vec<Value<'_>> = parameters.iter().map(|&(_, value)| value.into()).collect();
         if K > 0 {
-            arguments.push(source.text(source.array(array.0, &array.1).node));
+            arguments.push(source.numbers(&array.1));
         }
-        let result = source.free_name(result);
-        let statements = source
-            .dialect
-            .call_array(Type::Reals(M), &result, &function, &arguments);
-        statements.iter().for_each(|statement| source.statement(statement));
-        source.reals(&result)
+        source.call_numbers(result, &function, &arguments)
     }
 }
 

@@ -36,7 +36,7 @@ pub fn tables(scenes: &[Scene]) -> String {
                 if m.is_network() { name.classed("network") } else { name },
                 Cell::shown(m.image_mse, error_text),
                 Cell::shown(m.psnr, |x| if x.is_finite() { format!("{x:.1}") } else { number(x) }),
-                Cell::shown(m.flip, |x| if x.is_nan() { number(x) } else { format!("{x:.4}") }),
+                Cell::shown(m.flip, flip_text),
                 Cell::shown(m.t_mse, error_text),
                 Cell::number(m.t_worst),
                 Cell::number(Some(m.nonfinite)).classed(if m.nonfinite > 0.0 { "bad" } else { "" }),
@@ -72,12 +72,17 @@ pub fn tables(scenes: &[Scene]) -> String {
 }
 
 /// A mean squared error, in one notation wherever one stands.
-fn error_text(x: f64) -> String {
+pub(super) fn error_text(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         number(x)
     } else {
         format!("{x:.2e}")
     }
+}
+
+/// A mean of a FLIP map.
+pub(super) fn flip_text(x: f64) -> String {
+    if x.is_nan() { number(x) } else { format!("{x:.4}") }
 }
 
 /// Charts of errors by fragments in a pixel and by alpha; none where no file has the numbers.

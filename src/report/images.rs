@@ -2,6 +2,7 @@
 //!
 //! Pictures are embedded once, in the contact sheet, which needs no script; the viewer borrows them.
 
+use super::errors::{error_text, flip_text};
 use super::find::Found;
 use super::html::{base64, base64_length, bytes, escape, number};
 use super::scenes::{Method, Scene};
@@ -181,12 +182,12 @@ pub fn section(found: &mut Found, scenes: &[Scene], most_bytes: u64) -> Images {
 /// The numbers below a picture.
 fn stats(method: &Method) -> String {
     let parts: Vec<String> = [
-        ("image MSE", method.image_mse),
-        ("FLIP", method.flip),
-        ("T-MSE", method.t_mse),
+        ("image MSE", method.image_mse.map(error_text)),
+        ("FLIP", method.flip.map(flip_text)),
+        ("T-MSE", method.t_mse.map(error_text)),
     ]
     .into_iter()
-    .filter_map(|(name, x)| Some(format!("{name} {}", number(x?))))
+    .filter_map(|(name, text)| Some(format!("{name} {}", text?)))
     .collect();
     let bad = if method.nonfinite > 0.0 {
         format!(", {} values not finite", number(method.nonfinite))

@@ -1,11 +1,22 @@
 //! Textures: images that give the colour and the opacity of a surface.
 
 use super::SceneError;
+use std::io::Cursor;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// Most columns or rows of a texture.
 const MAX_SIDE: u32 = 1 << 14;
+
+/// First bytes of a PNG file (its specification, section 5.2).
+const PNG_MAGIC: [u8; 8] = [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n'];
+
+/// First bytes of a JPEG file: the marker of its start, and the first byte of another marker (ITU-T T.81, B.1.1).
+const JPEG_MAGIC: [u8; 3] = [0xff, 0xd8, 0xff];
 
 /// Texels of eight bits a channel: colour in the sRGB curve, alpha linear.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,15 +84,12 @@ impl Image {
     /// [`SceneError::FileContent`] for another kind of image, damage, and a size that the bytes cannot hold.
     pub fn decode(path: &Path, place: &str, bytes: &[u8]) -> Result<Self, SceneError> {
         let wrong = |reason: String| SceneError::file_content(path, place, reason);
-        let reader = || image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-        let (width, height) = reader()
-            .map_err(image::ImageError::IoError)
-            .and_then(image::ImageReader::into_dimensions)
-            .map_err(|e| {
-                wrong(format!(
-                    "the image is not readable ({e}); textures are PNG or JPEG files"
-                ))
-            })?;
+        let mut source = Source::open(bytes).map_err(|e| {
+            wrong(format!(
+                "the image is not readable ({e}); textures are PNG or JPEG files"
+            ))
+        })?;
+        let (width, height) = source.size();
         // Deflate's best is about a thousand to one; JPEG's flat blocks reach less.
         let plausible = 16 * 1024 * 1024 + 1032 * bytes.len() as u64;
         let texels = u64::from(width) * u64::from(height);
@@ -92,16 +100,15 @@ impl Image {
             );
             return Err(wrong(reason));
         }
-        let decoded = reader()
-            .map_err(image::ImageError::IoError)
-            .and_then(|mut reader| {
-                let mut limits = image::Limits::default();
-                limits.max_alloc = Some(16 * texels + (16 << 20));
-                reader.limits(limits);
-                reader.decode()
-            })
+        let rgba = source
+            .texels()
             .map_err(|e| wrong(format!("the image is damaged ({e})")))?;
-        let rgba = decoded.into_rgba8().pixels().map(|p| p.0).collect();
+        if rgba.len() as u64 != texels {
+            return Err(wrong(format!(
+                "the image is damaged (it holds {} of {texels} texels)",
+                rgba.len()
+            )));
+        }
         Ok(Self { width, height, rgba })
     }
 
@@ -126,6 +133,86 @@ impl Image {
     fn stored(&self, x: u32, y: u32) -> [f32; 4] {
         self.rgba[y as usize * self.width as usize + x as usize].map(|v| f32::from(v) / 255.0)
     }
+}
+
+/// An image file whose header was read.
+enum Source<'a> {
+    Png(Box<png::Reader<Cursor<&'a [u8]>>>),
+    Jpeg(Box<JpegDecoder<ZCursor<&'a [u8]>>>, u32, u32),
+}
+
+impl<'a> Source<'a> {
+    /// Reads the header of a PNG or JPEG file, told apart by their first bytes.
+    fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        if bytes.starts_with(&PNG_MAGIC) {
+            let mut decoder = png::Decoder::new(Cursor::new(bytes));
+            decoder.set_ignore_text_chunk(true);
+            decoder.set_ignore_iccp_chunk(true);
+            // Palettes, bits below eight a channel and transparent colours become channels of eight bits.
+            decoder.set_transformations(png::Transformations::EXPAND);
+            return decoder
+                .read_info()
+                .map(|r| Self::Png(Box::new(r)))
+                .map_err(|e| e.to_string());
+        }
+        if bytes.starts_with(&JPEG_MAGIC) {
+            // Greater sizes than these cannot be written; what is supported is the caller's to say.
+            let side = usize::from(u16::MAX);
+            let options = DecoderOptions::default()
+                .set_strict_mode(false)
+                .set_max_width(side)
+                .set_max_height(side);
+            let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+            decoder.decode_headers().map_err(|e| e.to_string())?;
+            let (width, height) = decoder.dimensions().ok_or("it has no size")?;
+            let grey = decoder.input_colorspace() == Some(ColorSpace::Luma);
+            let colors = if grey { ColorSpace::Luma } else { ColorSpace::RGB };
+            decoder.set_options(options.jpeg_set_out_colorspace(colors));
+            return Ok(Self::Jpeg(Box::new(decoder), width as u32, height as u32));
+        }
+        Err("it is of another kind".to_owned())
+    }
+
+    /// Columns and rows.
+    fn size(&self) -> (u32, u32) {
+        match self {
+            Self::Png(reader) => (reader.info().width, reader.info().height),
+            Self::Jpeg(_, width, height) => (*width, *height),
+        }
+    }
+
+    /// Decodes the image.
+    fn texels(&mut self) -> Result<Vec<[u8; 4]>, String> {
+        match self {
+            Self::Png(reader) => {
+                let mut bytes = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
+                let info = reader.next_frame(&mut bytes).map_err(|e| e.to_string())?;
+                bytes.truncate(info.buffer_size());
+                if info.bit_depth == png::BitDepth::Sixteen {
+                    // The nearest of the 256 values; 65535 is 257 times 255.
+                    let nearest = |pair: &[u8; 2]| ((u32::from(u16::from_be_bytes(*pair)) + 128) / 257) as u8;
+                    bytes = bytes.as_chunks().0.iter().map(nearest).collect();
+                }
+                Ok(rgba(&bytes, info.color_type.samples()))
+            }
+            Self::Jpeg(decoder, ..) => {
+                let bytes = decoder.decode().map_err(|e| e.to_string())?;
+                let channels = decoder.output_colorspace().map_or(3, |c| c.num_components());
+                Ok(rgba(&bytes, channels))
+            }
+        }
+    }
+}
+
+/// Texels of bytes with so many channels: grey, grey and alpha, colour, colour and alpha.
+fn rgba(bytes: &[u8], channels: usize) -> Vec<[u8; 4]> {
+    let texel = |c: &[u8]| match *c {
+        [grey] => [grey, grey, grey, 255],
+        [grey, alpha] => [grey, grey, grey, alpha],
+        [r, g, b] => [r, g, b, 255],
+        _ => [c[0], c[1], c[2], c[3]],
+    };
+    bytes.chunks_exact(channels).map(texel).collect()
 }
 
 /// The sRGB curve's inverse at the 256 values of a byte.
@@ -256,6 +343,84 @@ mod tests {
             height: rgba.len() as u32 / width,
             rgba: rgba.to_vec(),
         })
+    }
+
+    /// PNG's kinds, each as it is stored: grey of 1 and 16 bits, a palette with opacities, grey with alpha, and 16 bits
+    /// a channel, of which the nearest eight remain.
+    #[test]
+    fn kinds_of_png() {
+        use png::{BitDepth, ColorType};
+        let png = |color: ColorType, depth: BitDepth, data: &[u8]| {
+            let mut out = Vec::new();
+            let mut encoder = png::Encoder::new(&mut out, 2, 1);
+            encoder.set_color(color);
+            encoder.set_depth(depth);
+            if color == ColorType::Indexed {
+                encoder.set_palette(&[1u8, 2, 3, 4, 5, 6][..]);
+                encoder.set_trns(&[7u8][..]);
+            }
+            encoder.write_header().unwrap().write_image_data(data).unwrap();
+            out
+        };
+        let decoded = |bytes: &[u8]| Image::decode(Path::new("a.png"), "", bytes).map(|image| image.rgba);
+        for (color, depth, data, texels) in [
+            (
+                ColorType::Grayscale,
+                BitDepth::One,
+                &[0x40][..],
+                [[0, 0, 0, 255], [255; 4]],
+            ),
+            (
+                ColorType::Grayscale,
+                BitDepth::Sixteen,
+                &[0x7f, 0xff, 0xff, 0x7f],
+                [[127, 127, 127, 255], [255; 4]],
+            ),
+            (
+                ColorType::Indexed,
+                BitDepth::Eight,
+                &[0, 1],
+                [[1, 2, 3, 7], [4, 5, 6, 255]],
+            ),
+            (
+                ColorType::GrayscaleAlpha,
+                BitDepth::Eight,
+                &[9, 8, 7, 6],
+                [[9, 9, 9, 8], [7, 7, 7, 6]],
+            ),
+            (
+                ColorType::Rgb,
+                BitDepth::Eight,
+                &[1, 2, 3, 4, 5, 6],
+                [[1, 2, 3, 255], [4, 5, 6, 255]],
+            ),
+            (
+                ColorType::Rgba,
+                BitDepth::Sixteen,
+                &[0, 128, 0, 129, 1, 1, 255, 255, 0, 0, 1, 0, 1, 129, 1, 130],
+                [[0, 1, 1, 255], [0, 1, 1, 2]],
+            ),
+        ] {
+            assert_eq!(
+                decoded(&png(color, depth, data)).unwrap(),
+                texels,
+                "{color:?} {depth:?}"
+            );
+        }
+        let whole = png(ColorType::Rgb, BitDepth::Eight, &[1, 2, 3, 4, 5, 6]);
+        for length in 0..whole.len() - 12 {
+            let error = decoded(&whole[..length]).unwrap_err().to_string();
+            assert!(
+                error.contains("not readable") || error.contains("damaged"),
+                "{length}: {error}"
+            );
+        }
+        assert!(
+            decoded(b"GIF89a")
+                .unwrap_err()
+                .to_string()
+                .contains("textures are PNG or JPEG")
+        );
     }
 
     #[test]

@@ -40,8 +40,13 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
 
 /// The weight in pixels that need no network, which is the network's weight without it: `oit_short_weight`.
 fn short(weigh: &str, slots: &str, moments: &str) -> String {
-    let mut text = weigh.replace(&format!("{ENTRY}(features)"), "1.0");
-    assert_ne!(text, weigh, "{ENTRY} is called by another name");
+    let (before, call) = weigh.split_once(&format!("{ENTRY}(")).expect("a call of the network");
+    let mut open = 1;
+    let end = call.find(|c| {
+        open += i32::from(c == '(') - i32::from(c == ')');
+        open == 0
+    });
+    let mut text = format!("{before}1.0{}", &call[end.expect("the end of the call") + 1..]);
     for line in weigh.lines().filter_map(|line| line.strip_prefix("fn ")) {
         let name = line.split('(').next().expect("a name");
         text = text.replace(&format!("{name}("), &format!("{}_known(", name.replace("nmt_", "oit_")));

@@ -2,10 +2,12 @@
 
 use super::{MethodShader, ShaderError};
 use crate::export::core::MAX_SHADER_MOMENTS;
+use crate::export::dialect::Wgsl;
 use crate::export::{Format, Target};
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
+use crate::numeric::source::{Dialect, component};
 use crate::oit::neural::Skip;
 use crate::oit::shader::{Composite, Offers, Pass1, WEIGHT};
 use crate::pixel::{CameraPlanes, FragmentList};
@@ -164,17 +166,14 @@ impl MethodShader {
 /// What stands between a recentred network and the passes.
 fn recentred(set: FeatureSet) -> String {
     let k = set.moments();
-    let numbers = |name: &str, from: usize| -> String {
-        let numbers: Vec<String> = (from..from + k).map(|i| format!("{name}[{i}]")).collect();
-        numbers.join(", ")
-    };
-    let pixel_moments = format!("array<f32, {k}>({})", numbers("p.sums", 1));
+    let sums: Vec<String> = (1..=k).map(|i| format!("p.sums[{i}]")).collect();
+    let moments: Vec<String> = (0..k).map(|i| component("m", k, i)).collect();
     let arguments =
         "f.v, f.z, f.absorbance, p.nearest, p.farthest, p.z_nearest, p.z_farthest, p.n, p.sums[0], OIT_PIXEL_MOMENTS";
     include_str!("neural/recentred.wgsl")
         .replace("OIT_ARGUMENTS", arguments)
-        .replace("OIT_PIXEL_MOMENTS", &pixel_moments)
-        .replace("OIT_MOMENTS", &numbers("m", 0))
-        .replace("OIT_KNOWN", &set.width().to_string())
+        .replace("OIT_PIXEL_MOMENTS", &Wgsl.numbers(&sums))
+        .replace("OIT_MOMENTS", &moments.join(", "))
+        .replace("OIT_RECENTRED", &component("known", set.width() + 1, set.width()))
         .replace("OIT_MAX_ABSORBANCE", &format!("{:?}", MAX_ABSORBANCE as f32))
 }

@@ -60,7 +60,15 @@ fn a_short_run_makes_a_table() {
             "{row}: {seconds}"
         );
     }
-    for network in ["recommended", "small", "moments-6", "paper"] {
+    for network in [
+        "recommended",
+        "small",
+        "moments-6",
+        "paper",
+        "core-small",
+        "core",
+        "core-large",
+    ] {
         assert!(
             table.contains(&format!("| `neural:{network}` | compute | exact |")),
             "{network}: {table}"

@@ -3,7 +3,6 @@
 
 use nmt::pixel::FragmentList;
 use nmt::scene::{self, Options, SceneFile};
-use std::io::Cursor;
 use std::path::Path;
 
 const CAMERA: &str = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\nvertical_fov = 30\nwidth = 16\nheight = \
@@ -44,10 +43,56 @@ fn said(list: &FragmentList, part: &str) -> bool {
 }
 
 fn png(width: u32, rgba: &[[u8; 4]]) -> Vec<u8> {
-    let image = image::RgbaImage::from_raw(width, rgba.len() as u32 / width, rgba.concat()).unwrap();
-    let mut out = Cursor::new(Vec::new());
-    image.write_to(&mut out, image::ImageFormat::Png).unwrap();
-    out.into_inner()
+    let mut out = Vec::new();
+    let mut encoder = png::Encoder::new(&mut out, width, rgba.len() as u32 / width);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder
+        .write_header()
+        .unwrap()
+        .write_image_data(rgba.as_flattened())
+        .unwrap();
+    out
+}
+
+/// A JPEG file of 8 x 8 texels of one colour, given as Y, Cb and Cr: three blocks with nothing but their means.
+fn jpeg(ycbcr: [i32; 3]) -> Vec<u8> {
+    let segment = |marker: u8, content: &[u8]| {
+        let length = (content.len() as u16 + 2).to_be_bytes();
+        [&[0xff, marker], &length[..], content].concat()
+    };
+    // The mean's categories 0 to 11 are codes of four bits; "no more coefficients" is a code of one.
+    let means = [
+        &[0x00, 0, 0, 0, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        &(0..12).collect::<Vec<u8>>()[..],
+    ]
+    .concat();
+    let others = [0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    let mut bits = String::new();
+    for value in ycbcr.map(|v| (v - 128) * 8) {
+        let category = 32 - value.unsigned_abs().leading_zeros();
+        bits += &format!("{category:04b}");
+        if category > 0 {
+            let low = if value < 0 { value - 1 + (1 << category) } else { value };
+            bits += &format!("{low:0width$b}", width = category as usize);
+        }
+        bits += "0";
+    }
+    while !bits.len().is_multiple_of(8) {
+        bits += "1";
+    }
+    let data = (0..bits.len() / 8).map(|i| u8::from_str_radix(&bits[8 * i..8 * i + 8], 2).unwrap());
+    [
+        vec![0xff, 0xd8],
+        segment(0xdb, &[&[0][..], &[1; 64]].concat()),
+        segment(0xc0, &[8, 0, 8, 0, 8, 3, 1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0]),
+        segment(0xc4, &means),
+        segment(0xc4, &others),
+        segment(0xda, &[3, 1, 0, 2, 0, 3, 0, 0, 63, 0]),
+        data.flat_map(|b| if b == 0xff { vec![b, 0] } else { vec![b] })
+            .collect(),
+        vec![0xff, 0xd9],
+    ]
+    .concat()
 }
 
 fn base64(bytes: &[u8]) -> String {
@@ -306,13 +351,6 @@ fn uv() -> Vec<u8> {
 #[test]
 fn textures_of_gltf_carry_alpha() {
     let image = png(2, &[[255, 0, 0, 51], [255, 0, 0, 204]]);
-    let jpeg = {
-        let mut out = Cursor::new(Vec::new());
-        image::RgbImage::from_pixel(8, 8, image::Rgb([188, 188, 188]))
-            .write_to(&mut out, image::ImageFormat::Jpeg)
-            .unwrap();
-        out.into_inner()
-    };
     let root = |image: &[u8], kind: &str| {
         format!(
             r#","textures":[{{"source":0,"sampler":0}}],"samplers":[{{"magFilter":9728,"wrapS":33071}}],
@@ -350,11 +388,16 @@ fn textures_of_gltf_carry_alpha() {
     let lower = build(&of(r#""alphaMode":"MASK","alphaCutoff":0.1,"#, ""), &png_root).unwrap();
     assert_eq!(alpha(&lower), (1.0, 144));
     assert_eq!(alpha(&build(&of("", ""), &png_root).unwrap()), (1.0, 144));
-    // 188 in the curve of sRGB is a half; JPEG may miss it by a step.
-    let lit = build(&of("", ""), &root(&jpeg, "jpeg")).unwrap();
+    // 188 in the curve of sRGB is a half; JPEG may miss it by a step. Y = 126, Cb = 104, Cr = 172 is R = 188, G = 103,
+    // B = 83, of which the curve makes 0.503, 0.136 and 0.087.
     let plain = PLAIN.seen().unwrap();
-    let ratio = lit.color().unwrap()[0][0] / plain.color().unwrap()[0][0];
-    assert!((ratio - 0.503).abs() < 0.02, "{ratio}");
+    for (ycbcr, expected) in [([188, 128, 128], [0.503; 3]), ([126, 104, 172], [0.503, 0.136, 0.087])] {
+        let lit = build(&of("", ""), &root(&jpeg(ycbcr), "jpeg")).unwrap();
+        for (channel, expected) in expected.into_iter().enumerate() {
+            let ratio = lit.color().unwrap()[0][channel] / plain.color().unwrap()[0][channel];
+            assert!((ratio - expected).abs() < 0.02, "{ycbcr:?}: {ratio} and not {expected}");
+        }
+    }
     // Behind a cutoff, the scene file's alpha is that of what is left.
     let text = Gltf {
         material: &of(r#""alphaMode":"MASK","#, ""),

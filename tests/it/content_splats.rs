@@ -1,5 +1,6 @@
 //! Gaussian splats: every format gives the same splats, and what is seen of them is what the formula says.
 
+use crate::python::python;
 use nmt::pixel::FragmentList;
 use nmt::scene::splat::Splat;
 use nmt::scene::splat::file::{self, Splats};
@@ -296,15 +297,7 @@ fn splats_are_placed_by_the_scene_file() {
 /// within 1e-6. The script's control fails.
 #[test]
 fn fragments_agree_with_an_independent_program() {
-    let Ok(python) = std::env::var("NMT_PYTHON") else {
-        let required = std::env::var("NMT_REQUIRE").unwrap_or_default();
-        assert!(
-            !required.split(',').any(|t| t == "onnxruntime"),
-            "required, but NMT_PYTHON is not set"
-        );
-        eprintln!("SKIPPED: NMT_PYTHON is not set; scripts/test sets it");
-        return;
-    };
+    let Some(python) = python() else { return };
     let folder = tempfile::tempdir().unwrap();
     let list = seen(folder.path(), &splats(), "");
     assert!(list.len() > 500, "{}", list.len());

@@ -2,6 +2,7 @@
 //! no line is too long.
 
 use crate::common::{Workplace, command, nmt};
+use crate::python::python;
 use nmt::numeric::require::or_skip;
 use std::path::{Path, PathBuf};
 
@@ -202,9 +203,8 @@ fn run(at: &Workplace, line: &str) {
         assert!(output.status.success(), "{line}\n{}\n{error}", arguments.join(" "));
     } else if let Some(words) = after(&words, &["target/venv/bin/python"]) {
         assert!(root().join(&words[0]).is_file(), "{line}");
-        let python = std::env::var("NMT_PYTHON").map_err(|_| "NMT_PYTHON is not set; scripts/test sets it");
         // What compares with other programs needs them, and time.
-        if let Some(python) = or_skip("python", python).filter(|_| words[0].ends_with("nmt.py")) {
+        if let Some(python) = python().filter(|_| words[0].ends_with("nmt.py")) {
             let script = root().join(&words[0]);
             let mut process = std::process::Command::new(python);
             let output = process

@@ -15,6 +15,7 @@ mod docs;
 mod documents;
 mod layers;
 mod lines;
+mod metal;
 mod methods;
 mod over_time;
 mod python;

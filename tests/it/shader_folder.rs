@@ -243,6 +243,15 @@ fn two_networks_fit_one_module() {
     assert!(wgsl(&both([None, None], "wgsl")).is_err());
 
     let folder = tempfile::tempdir().unwrap();
+    if let Some(program) = or_skip("slangc", slangc()) {
+        let path = folder.path().join("both.hlsl");
+        let hlsl = |source: String| {
+            std::fs::write(&path, source).unwrap();
+            run(&program, &["-lang", "hlsl", "-no-codegen"], &path).unwrap()
+        };
+        hlsl(both([Some("glass"), Some("smoke_2")], "hlsl")).unwrap();
+        assert!(hlsl(both([None, None], "hlsl")).is_err());
+    }
     let path = folder.path().join("both.frag");
     let glsl = |source: String| {
         let text =

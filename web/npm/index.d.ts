@@ -3,7 +3,10 @@ import type { PassNode, PassNodeOptions, WebGPURenderer } from "three/webgpu";
 
 /** Options of {@link nmtPass}; those of a three.js pass, without `samples`: sums cannot be multisampled. */
 export interface NMTPassOptions extends Omit<PassNodeOptions, "samples"> {
-  /** A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes. Default: `"recommended"`. */
+  /**
+   * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four
+   * moments. Default: `"recommended"`.
+   */
   network?: "recommended" | "small" | { wgsl: string };
   /**
    * Least and greatest distance along the view direction of anything transparent, in scene units. By default it is

@@ -66,6 +66,25 @@ const isDrawnHere = (material) =>
   material.transmissionNode?.isNode !== true &&
   material.backdropNode?.isNode !== true;
 
+/** A network's WGSL. */
+function sourceOf(network) {
+  const source = typeof network === "string" ? networks[network] : network?.wgsl;
+  if (typeof source !== "string") {
+    const names = Object.keys(networks).join(", ");
+    throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
+  }
+  // More moments than four do not fit the 32 bytes that every device writes at once.
+  const needs = ["fn nmt_moments(z: f32, absorbance: f32) -> vec4<f32>", "fn nmt_pass2(v: f32,", "fn nmt_resolve("];
+  const missing = needs.find((head) => !source.includes(head));
+  if (missing !== undefined) {
+    throw new Error(
+      `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four moments ` +
+        "(feature set 'recentred'), without a prefix.",
+    );
+  }
+  return source;
+}
+
 // TSL knows vectors, and no structures: a call for each target of pass 1.
 const pass1 = (field) => `
 fn nmt_three_${field}( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
@@ -110,18 +129,7 @@ export class NMTPassNode extends PassNode {
     super(PassNode.COLOR, scene, camera, { ...options, samples: 0 });
     this.isNMTPassNode = true;
     this.range = range;
-    const source = typeof network === "string" ? networks[network] : network?.wgsl;
-    if (typeof source !== "string") {
-      const names = Object.keys(networks).join(", ");
-      throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
-    }
-    for (const name of ["nmt_pass1", "nmt_pass2", "nmt_resolve"]) {
-      if (!source.includes(`fn ${name}(`)) {
-        throw new Error(
-          `nmtPass: the network's WGSL has no function ${name}; export a recentred network of four moments.`,
-        );
-      }
-    }
+    const source = sourceOf(network);
     this._source = wgsl(source);
     this._range = uniform(new Vector2(1, 2));
 

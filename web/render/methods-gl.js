@@ -1,15 +1,9 @@
 // The methods of WebGL 2: what methods.js says of them, in GLSL ES 3.00. `ends` says that pass 2 looks at nearest and
 // farthest fragment.
 
-const COMMON = `
-float absorbance_of(float alpha) {
-    float faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return alpha < 0.03 ? faint : -log(max(1.0 - alpha, 0.000045399931));
-}
-float depth_of(float v) {
-    return clamp(2.0 * log(v / frame.range.x) / log(frame.range.y / frame.range.x) - 1.0, -1.0, 1.0);
-}
-`;
+// Absorbance and moment depth, of methods whose own files have none, are those of a network's file.
+const COMMON = "shaders/small/small.glsl";
+const DEPTH = "nmt_moment_depth(s.v, frame.range.x, frame.range.y)";
 
 const FIRST_IS_TOTAL = `
 float total(ivec2 at) {
@@ -24,7 +18,6 @@ function network(name) {
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
     ends: true,
-    common: "",
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
@@ -50,14 +43,13 @@ export const GL_METHODS = {
   exact: {},
   sorted: {},
   "weighted-blended": {
-    functions: [],
+    functions: [COMMON],
     formats: ["r32f"],
     half: ["r16f"],
-    common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
 void accumulate(Surface s, ivec2 at) {
-    out0 = vec4(absorbance_of(s.alpha), 0.0, 0.0, 0.0);
+    out0 = vec4(nmt_absorbance(s.alpha), 0.0, 0.0, 0.0);
 }
 `,
     // McGuire and Bavoil 2013, Eq. 9; twin of weight_mb13_9 in src/oit/weighted_blended.wgsl.
@@ -70,15 +62,14 @@ float weight(Surface s, ivec2 at) {
     total: FIRST_IS_TOTAL,
   },
   "moment-power-4": {
-    functions: ["web/glsl/moments.glsl"],
+    functions: [COMMON, "web/glsl/moments.glsl"],
     formats: ["rgba32f", "r32f"],
-    common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
 void accumulate(Surface s, ivec2 at) {
-    float a = absorbance_of(s.alpha);
-    float z = depth_of(s.v);
+    float a = nmt_absorbance(s.alpha);
+    float z = ${DEPTH};
     out0 = a * vec4(1.0, z, z * z, z * z * z);
     out1 = vec4(a * z * z * z * z, 0.0, 0.0, 0.0);
 }
@@ -87,18 +78,17 @@ void accumulate(Surface s, ivec2 at) {
 float weight(Surface s, ivec2 at) {
     vec4 b0123 = texelFetch(target0, at, 0);
     vec4 b1234 = vec4(b0123.yzw, texelFetch(target1, at, 0).x);
-    return b0123.x == 0.0 ? 1.0 : power_transmittance_4(b0123.x, b1234, depth_of(s.v), 0.25);
+    return b0123.x == 0.0 ? 1.0 : power_transmittance_4(b0123.x, b1234, ${DEPTH}, 0.25);
 }
 `,
     total: FIRST_IS_TOTAL,
   },
   wavelet: {
-    functions: ["web/glsl/wavelet.glsl"],
+    functions: [COMMON, "web/glsl/wavelet.glsl"],
     formats: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
     half: ["rgba16f", "rgba16f", "rgba16f", "rgba16f"],
     ends: true,
     prepass: true,
-    common: COMMON,
     accumulate: `
 layout(location = 0) out vec4 out0;
 layout(location = 1) out vec4 out1;
@@ -106,7 +96,7 @@ layout(location = 2) out vec4 out2;
 layout(location = 3) out vec4 out3;
 void accumulate(Surface s, ivec2 at) {
     vec4 c[4];
-    wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha), c);
+    wavelet_terms(wavelet_place(s.v, ends_of(at)), nmt_absorbance(s.alpha), c);
     out0 = c[0];
     out1 = c[1];
     out2 = c[2];
@@ -117,7 +107,7 @@ void accumulate(Surface s, ivec2 at) {
 float weight(Surface s, ivec2 at) {
     float x = wavelet_place(s.v, ends_of(at));
     vec4 own[4];
-    wavelet_terms(x, absorbance_of(s.alpha), own);
+    wavelet_terms(x, nmt_absorbance(s.alpha), own);
     vec4 others[4] = vec4[4](
         texelFetch(target0, at, 0) - own[0], texelFetch(target1, at, 0) - own[1],
         texelFetch(target2, at, 0) - own[2], texelFetch(target3, at, 0) - own[3]);

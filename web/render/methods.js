@@ -3,23 +3,16 @@
 // A blended method draws the scene twice. Pass 1 adds up `targets`; `accumulate` makes what a fragment adds. Pass 2
 // adds up colour by `weight`; `total` is a pixel's absorbance b0. `functions` are files that the three of them use.
 
+// Absorbance and moment depth, of methods whose own files have none, are those of a network's file.
+const COMMON = "shaders/small/small.wgsl";
+const DEPTH = "nmt_moment_depth(s.v, frame.range.x, frame.range.y)";
+
 const SUMS_OF_MOMENTS = `
 struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4: f32 }
 fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
-    let a = absorbance_of(s.alpha);
-    let z = depth_of(s.v);
+    let a = nmt_absorbance(s.alpha);
+    let z = ${DEPTH};
     return Sums(a * vec4<f32>(1.0, z, z * z, z * z * z), a * z * z * z * z);
-}
-`;
-
-// Absorbance and moment depth of methods whose files have none.
-const COMMON = `
-fn absorbance_of(alpha: f32) -> f32 {
-    let faint = alpha * (1.0 + alpha * (0.5 + alpha * (0.33333334 + alpha * (0.25 + alpha * 0.2))));
-    return select(-log(max(1.0 - alpha, 0.000045399931)), faint, alpha < 0.03);
-}
-fn depth_of(v: f32) -> f32 {
-    return clamp(2.0 * log(v / frame.range.x) / log(frame.range.y / frame.range.x) - 1.0, -1.0, 1.0);
 }
 `;
 
@@ -65,6 +58,55 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
   };
 }
 
+/** A network whose pass 1 keeps single fragments by atomics: both ends, the heaviest of the rest, and sums over all. */
+function core(name, title, heavy, note) {
+  const vectors = Math.ceil((heavy + 2) / 4);
+  const read = (i) => [0, 1, 2, 3].map((k) => `slots[first + ${4 * i + k}u]`).join(", ");
+  const kept = Array.from({ length: vectors }, (_, i) => `vec4<u32>(${read(i)})`);
+  return {
+    name,
+    title,
+    note: `both ends and the ${heavy} heaviest other fragments one by one, the rest as four moments; ${note}`,
+    kind: "blended",
+    bits: 6 * 32 + (heavy + 2) * 32,
+    slots: 4 * vectors,
+    functions: [`shaders/${name}/${name}.chain.wgsl`],
+    // The slots stand in the page's own group.
+    fill: { "@group(3) @binding(0) var<storage": "@group(1) @binding(8) var<storage" },
+    targets: [add("rgba32float"), add("rg32float")],
+    accumulate: `
+struct Sums { @location(0) b0123: vec4<f32>, @location(1) b4_and_n: vec2<f32> }
+fn codes() -> NmtCodes {
+    return nmt_core_codes(frame.range.x, frame.range.y);
+}
+fn steps_of(s: Surface) -> vec2<u32> {
+    return nmt_core_steps(s.v, nmt_core_absorbance_of(s.alpha), codes());
+}
+fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
+    let steps = steps_of(s);
+    let moments = nmt_core_moments(steps);
+    let n = select(0.0, 1.0, steps.y > 0u);
+    return Sums(vec4<f32>(nmt_core_absorbance(steps), moments.xyz), vec2<f32>(moments.w, n));
+}
+fn record(s: Surface, pixel: u32) {
+    nmt_core_insert(pixel, steps_of(s), codes());
+}
+`,
+    weight: `
+fn weight(s: Surface, at: vec2<i32>) -> f32 {
+    let first = u32(at.x + at.y * i32(frame.size.x)) * NMT_SLOTS;
+    let b0123 = textureLoad(target0, at, 0);
+    let b4_and_n = textureLoad(target1, at, 0);
+    return nmt_core_transmittance(
+        steps_of(s), codes(), ${kept.join(", ")},
+        b4_and_n.y, b0123.x, vec4<f32>(b0123.yzw, b4_and_n.x),
+    );
+}
+`,
+    total: FIRST_IS_TOTAL,
+  };
+}
+
 export const METHODS = [
   {
     name: "exact",
@@ -85,13 +127,13 @@ export const METHODS = [
     note: "McGuire and Bavoil 2013: a weight that falls with depth, no knowledge of the pixel",
     kind: "blended",
     bits: 32,
-    functions: ["src/oit/weighted_blended.wgsl"],
+    functions: [COMMON, "src/oit/weighted_blended.wgsl"],
     targets: [add("r32float")],
     half: { targets: [add("r16float")], bits: 16 },
-    accumulate: `${COMMON}
+    accumulate: `
 struct Sums { @location(0) b0: f32 }
 fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
-    return Sums(absorbance_of(s.alpha));
+    return Sums(nmt_absorbance(s.alpha));
 }
 `,
     weight: `
@@ -107,14 +149,14 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     note: "Münstermann and others 2018: transmittance reconstructed from four power moments",
     kind: "blended",
     bits: 160,
-    functions: ["src/numeric/roots.wgsl", "src/moments/hamburger.wgsl"],
+    functions: [COMMON, "src/numeric/roots.wgsl", "src/moments/hamburger.wgsl"],
     targets: [add("rgba32float"), add("r32float")],
-    accumulate: `${COMMON}${SUMS_OF_MOMENTS}`,
+    accumulate: SUMS_OF_MOMENTS,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
     let b0123 = textureLoad(target0, at, 0);
     let b = array<f32, 5>(b0123.x, b0123.y, b0123.z, b0123.w, textureLoad(target1, at, 0).x);
-    return select(power_transmittance_4(b, depth_of(s.v), 0.25), 1.0, b0123.x == 0.0);
+    return select(power_transmittance_4(b, ${DEPTH}, 0.25), 1.0, b0123.x == 0.0);
 }
 `,
     total: FIRST_IS_TOTAL,
@@ -126,13 +168,13 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
     kind: "blended",
     bits: 256 + 64,
     prepass: true,
-    functions: ["web/wgsl/wavelet.wgsl"],
+    functions: [COMMON, "web/wgsl/wavelet.wgsl"],
     targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
     half: {
       targets: [add("rgba16float"), add("rgba16float"), add("rgba16float"), add("rgba16float")],
       bits: 256 + 64,
     },
-    accumulate: `${COMMON}
+    accumulate: `
 struct Sums {
     @location(0) c0: vec4<f32>,
     @location(1) c1: vec4<f32>,
@@ -140,14 +182,14 @@ struct Sums {
     @location(3) c3: vec4<f32>,
 }
 fn accumulate(s: Surface, at: vec2<i32>) -> Sums {
-    let c = wavelet_terms(wavelet_place(s.v, ends_of(at)), absorbance_of(s.alpha));
+    let c = wavelet_terms(wavelet_place(s.v, ends_of(at)), nmt_absorbance(s.alpha));
     return Sums(c[0], c[1], c[2], c[3]);
 }
 `,
     weight: `
 fn weight(s: Surface, at: vec2<i32>) -> f32 {
     let x = wavelet_place(s.v, ends_of(at));
-    let own = wavelet_terms(x, absorbance_of(s.alpha));
+    let own = wavelet_terms(x, nmt_absorbance(s.alpha));
     let others = array<vec4<f32>, 4>(
         textureLoad(target0, at, 0) - own[0], textureLoad(target1, at, 0) - own[1],
         textureLoad(target2, at, 0) - own[2], textureLoad(target3, at, 0) - own[3],
@@ -164,33 +206,11 @@ fn total(at: vec2<i32>) -> f32 {
 }
 `,
   },
-  network("small", "Network small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
-  network("recommended", "Network recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
-  {
-    name: "core-6",
-    title: "Core of 6",
-    note: "both ends and the six heaviest fragments by atomics, the rest by mean and spread; no network",
-    kind: "blended",
-    bits: 4 * 32 + 8 * 32,
-    slots: 8,
-    fill: {
-      CORE_DEPTH_BITS: "16",
-      CORE_OCTAVE_BITS: "11",
-      CORE_HEAVY: "6",
-      CORE_SLOTS: "8",
-      CORE_KEY_SCALE: "0.375",
-      CORE_LAST_ABSORBANCE: "27136",
-      CORE_GROUP: "1",
-      CORE_BINDING: "8",
-    },
-    functions: ["src/export/core/codes.wgsl", "web/wgsl/core.wgsl"],
-    first: ["src/export/core/insert.wgsl", "web/wgsl/core-first.wgsl"],
-    second: ["web/wgsl/core-second.wgsl"],
-    targets: [add("rgba32float")],
-    accumulate: "",
-    weight: "",
-    total: FIRST_IS_TOTAL,
-  },
+  network("small", "NMT small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
+  network("recommended", "NMT recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  core("core-small", "NMT core-small", 2, "16-8-1, 248 multiply-adds for what the core does not answer"),
+  core("core", "NMT core", 4, "32-16-1 for what the core does not answer"),
+  core("core-large", "NMT core-large", 6, "32-16-1 for what the core does not answer"),
 ];
 
 /** A method by its name. */

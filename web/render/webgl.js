@@ -185,7 +185,6 @@ export class WebGlRenderer {
             functions = await texts(m.functions);
             if (!this.blends32)
               functions = functions.replace(/(const float \w*NMT_ROUNDING = )[^;]+;/, "$19.765625e-4;");
-            functions = m.common + functions;
             if (pass === "FIRST") functions += (m.prepass ? this.endsText(m) : "") + m.accumulate;
             else functions += this.stateText(m) + (pass === "SECOND" ? m.weight : m.total);
           }

@@ -228,9 +228,9 @@ export class WebGpuRenderer {
     return out;
   }
 
-  /** Files of a method, and what one of its passes needs besides. */
-  async functions(m, more = []) {
-    let source = await texts([...m.functions, ...more]);
+  /** Files of a method. */
+  async functions(m) {
+    let source = await texts(m.functions);
     for (const [word, value] of Object.entries(m.fill ?? {})) source = source.replaceAll(word, value);
     return this.blends32 || !m.rounds ? source : rounded(source, /(const \w*NMT_ROUNDING: f32 = )[^;]+;/);
   }
@@ -348,11 +348,11 @@ fn over(f: Varying) -> @location(0) vec4<f32> {
     const before = m.prepass ? [this.endsLayout(plan)] : plan.slots ? [this.layouts.slots] : [];
     const first = await this.module(
       `${m.name} pass 1`,
-      `${geometry}\n${prepass}${await this.functions(m, m.first)}\n${m.accumulate}\n${pass1}`,
+      `${geometry}\n${prepass}${await this.functions(m)}\n${m.accumulate}\n${pass1}`,
     );
     const second = await this.module(
       `${m.name} pass 2`,
-      `${geometry}\n${state}${await this.functions(m, m.second)}\n${m.accumulate}\n${m.weight}\n${pass2}`,
+      `${geometry}\n${state}${await this.functions(m)}\n${m.accumulate}\n${m.weight}\n${pass2}`,
     );
     const third = await this.module(
       `${m.name} resolve`,

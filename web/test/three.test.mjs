@@ -112,6 +112,14 @@ for (const [title, dense, layers, factor] of [
     assert.equal(found.why, null);
     assert.deepEqual(page.errors, []);
     assert.ok(found.layers >= layers, `${found.layers} layers`);
+    // The README's row has these numbers.
+    const readme = fs.readFileSync(path.join(WEB, "npm", "README.md"), "utf8");
+    const row = readme.split("\n").find((line) => line.startsWith(`| ${dense ? "thirty balls" : "its own example"}`));
+    const printed = row.split("|").slice(2, -1).map(Number);
+    ["sorted", "oit", "small", "recommended"].forEach((name, i) => {
+      const ratio = errors[name] / printed[i];
+      assert.ok(ratio > 0.5 && ratio < 2, `${name}: ${errors[name]}, the README says ${printed[i]}`);
+    });
     for (const name of ["small", "recommended"]) {
       assert.ok(errors[name] < errors.oit / factor && errors[name] < errors.sorted / 2, JSON.stringify(errors));
     }
@@ -192,11 +200,84 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
   near(found.oneColor, [1 - behind, 0, behind, 1], "one colour");
   assert.throws(() => near(found.twoColors, [1 - 0.85 * 0.75 * 0.65 * 0.5, 0, 0.85 * 0.75 * 0.65 * 0.5, 1], "control"));
   near(found.hidden, [1, 0.7, 0.7, 1], "before a wall");
-  near(found.clear, [0.3, 0, 0, 0.3], "before nothing");
+  near(found.clear, [0.3, 0, 0, 0.3], "before nothing, premultiplied");
   assert.ok(found.resized < 1e-9 && found.size[0] === 4 * 64 * 48, `resized: ${found.resized}`);
   assert.ok(found.held > 0 && found.left < found.held, `${found.left} of ${found.held} textures are left`);
   assert.match(found.unknown, /no network "none"/);
   assert.match(found.webgl, /needs WebGPU/);
+  await page.close();
+});
+
+test("README: its program runs as it stands, order does not matter, other blending is drawn as ever", async () => {
+  const readme = fs.readFileSync(path.join(FRESH, "node_modules", "neural-moment-transparency", "README.md"), "utf8");
+  const program = readme.match(/```js\n([^]*?)```/)[1];
+  assert.match(program, /nmtPass\(scene, camera\)/);
+  const page = await visit();
+  const found = await page.evaluate(
+    async ([mseText, program]) => {
+      const mse = eval(mseText);
+      // What the reader has: a scene, a camera.
+      Object.assign(window, makeScene(), { camera: makeCamera(64 / 48) });
+      const module = URL.createObjectURL(
+        new Blob([`${program}\nwindow.shown = { renderer, pipeline, why };`], { type: "text/javascript" }),
+      );
+      await import(module);
+      const { renderer, pipeline, why } = window.shown;
+      await new Promise((resolve) => setTimeout(resolve, 500));
+      renderer.setAnimationLoop(null);
+      const out = { why, pass: pipeline.outputNode.isNMTPassNode === true, frames: renderer.info.frame };
+
+      const image = (scene, options) => frame(renderer, nmtPass(scene, camera, options), 64, 48);
+      const there = await image(scene);
+      scene.children.reverse();
+      out.order = mse(await image(scene), there);
+      // The export of a network of one's own is that network.
+      const { small } = await import("/node_modules/neural-moment-transparency/networks.js");
+      out.own = mse(await image(scene, { network: { wgsl: small } }), await image(scene, { network: "small" }));
+      out.refused = [{ wgsl: "fn nothing() {}" }, {}, "core"].map((network) => {
+        try {
+          nmtPass(scene, camera, { network });
+          return "";
+        } catch (error) {
+          return error.message;
+        }
+      });
+      // Additive glass is drawn as by a plain pass; control: with normal blending, of many balls, the passes differ.
+      const lights = new THREE.Scene();
+      lights.background = new THREE.Color(0.1, 0.2, 0.3);
+      const made = [0xff4030, 0x30d060].map((color, i) => {
+        const material = new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.5 });
+        const ball = new THREE.Mesh(new THREE.SphereGeometry(2, 24, 12), material);
+        ball.position.set(i, 0, 2 * i);
+        lights.add(ball);
+        return material;
+      });
+      const plainly = (scene) => frame(renderer, pass(scene, camera), 64, 48);
+      const dense = makeDenseScene().scene;
+      out.normal = mse(await image(dense), await plainly(dense));
+      for (const material of made) {
+        material.blending = THREE.AdditiveBlending;
+        material.needsUpdate = true;
+      }
+      out.additive = mse(await image(lights), await plainly(lights));
+      return out;
+    },
+    [MSE, program],
+  );
+  assert.deepEqual(page.errors, []);
+  assert.equal(found.why, null);
+  assert.ok(found.pass && found.frames > 0, `${found.frames} frames`);
+  assert.ok(found.order < 1e-9 && found.own === 0, `order ${found.order}, own ${found.own}`);
+  assert.match(found.refused[0], /no "fn nmt_moments/);
+  assert.match(found.refused[1], /there are recommended, small/);
+  assert.match(found.refused[2], /no network "core"/);
+  assert.ok(found.additive < 1e-9 && found.normal > 1e-4, `additive ${found.additive}, normal ${found.normal}`);
+  // What the README says of Node and of files.
+  const { recommended } = await import(path.join(FRESH, "node_modules/neural-moment-transparency/networks.js"));
+  const shaders = path.join(FRESH, "node_modules/neural-moment-transparency/shaders");
+  assert.equal(recommended, fs.readFileSync(path.join(shaders, "recommended", "recommended.wgsl"), "utf8"));
+  for (const file of ["webgpu/pass1.wgsl", "opengl-es-300/pass2.frag", "direct3d/resolve.hlsl", "metal/pass2.metal"])
+    assert.ok(fs.existsSync(path.join(shaders, "small", file)), file);
   await page.close();
 });
 

@@ -31,19 +31,14 @@ float nmt_moment_depth(float v, float v0, float v1) {
 }
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-void nmt_moments(float z, float absorbance, out float result[6]) {
+float2x4 nmt_moments(float z, float absorbance) {
     float moment1 = absorbance * z;
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
     float moment5 = moment4 * z;
     float moment6 = moment5 * z;
-    result[0] = moment1;
-    result[1] = moment2;
-    result[2] = moment3;
-    result[3] = moment4;
-    result[4] = moment5;
-    result[5] = moment6;
+    return float2x4(float4(moment1, moment2, moment3, moment4), float4(moment5, moment6, 0.0, 0.0));
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
@@ -61,13 +56,12 @@ struct NmtSums {
 // the greatest v of the scene.
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
-    float b[6];
-    nmt_moments(nmt_moment_depth(v, v0, v1), absorbance, b);
-    NmtSums sums;
-    sums.sums0 = float4(absorbance, b[0], b[1], b[2]);
-    sums.sums1 = float4(b[3], b[4], b[5], 1.0);
-    sums.range = float4(-v, v, 0.0, 0.0);
-    return sums;
+    float2x4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    NmtSums result;
+    result.sums0 = float4(absorbance, b[0].xyz);
+    result.sums1 = float4(b[0].w, b[1].xy, 1.0);
+    result.range = float4(-v, v, 0.0, 0.0);
+    return result;
 }
 
 cbuffer Frame : register(b0) {

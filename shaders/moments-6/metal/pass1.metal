@@ -14,9 +14,6 @@
 
 using metal::uint;
 
-struct type_1 {
-    float inner[6];
-};
 struct NmtSums {
     metal::float4 sums0;
     metal::float4 sums1;
@@ -64,7 +61,7 @@ float nmt_moment_depth(
     return (v1 > v0) ? metal::clamp(((2.0 * _e3) / metal::max(_e6, 0.000000000000000000000000000001)) - 1.0, -1.0, 1.0) : 0.0;
 }
 
-type_1 nmt_moments(
+metal::float2x4 nmt_moments(
     float z,
     float absorbance
 ) {
@@ -74,7 +71,7 @@ type_1 nmt_moments(
     float moment4 = moment3 * z;
     float moment5 = moment4 * z;
     float moment6 = moment5 * z;
-    return type_1 {{moment1, moment2, moment3, moment4, moment5, moment6}};
+    return metal::float2x4(metal::float4(moment1, moment2, moment3, moment4), metal::float4(moment5, moment6, 0.0, 0.0));
 }
 
 NmtSums nmt_pass1(
@@ -85,8 +82,8 @@ NmtSums nmt_pass1(
 ) {
     float _e4 = nmt_absorbance(alpha_1);
     float _e5 = nmt_moment_depth(v_1, v0_1, v1_1);
-    type_1 _e6 = nmt_moments(_e5, _e4);
-    return NmtSums {metal::float4(_e4, _e6.inner[0], _e6.inner[1], _e6.inner[2]), metal::float4(_e6.inner[3], _e6.inner[4], _e6.inner[5], 1.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
+    metal::float2x4 _e6 = nmt_moments(_e5, _e4);
+    return NmtSums {metal::float4(_e4, _e6[0].xyz), metal::float4(_e6[0].w, _e6[1].xy, 1.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
 }
 
 struct pass1_Input {

@@ -20,7 +20,7 @@ metal::float4 nmt_resolve(
 ) {
     float behind = metal::exp(-(sums0.x));
     float scale = (weighted.w > 0.0) ? ((1.0 - behind) / metal::max(weighted.w, 0.0000000000000000000000000000000000001)) : 0.0;
-    return metal::float4(scale * weighted.xyz, behind);
+    return metal::float4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 struct everywhereInput {

@@ -16,8 +16,8 @@ precision highp sampler2D;
 // alpha.
 vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return vec4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return vec4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 layout(location = 0) out vec4 result;

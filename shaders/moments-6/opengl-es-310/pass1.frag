@@ -35,14 +35,14 @@ float nmt_moment_depth(float v, float v0, float v1) {
 }
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-float[6] nmt_moments(float z, float absorbance) {
+mat2x4 nmt_moments(float z, float absorbance) {
     float moment1 = absorbance * z;
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
     float moment5 = moment4 * z;
     float moment6 = moment5 * z;
-    return float[6](moment1, moment2, moment3, moment4, moment5, moment6);
+    return mat2x4(vec4(moment1, moment2, moment3, moment4), vec4(moment5, moment6, 0.0, 0.0));
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
@@ -60,8 +60,8 @@ struct NmtSums {
 // the greatest v of the scene.
 NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
     float absorbance = nmt_absorbance(alpha);
-    float b[6] = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], b[4], b[5], 1.0), vec4(-v, v, 0.0, 0.0));
+    mat2x4 b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
+    return NmtSums(vec4(absorbance, b[0].xyz), vec4(b[0].w, b[1].xy, 1.0), vec4(-v, v, 0.0, 0.0));
 }
 
 // Distance along the view direction.

@@ -30,14 +30,14 @@ fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
 }
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 6> {
+fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32> {
     let moment1 = absorbance * z;
     let moment2 = moment1 * z;
     let moment3 = moment2 * z;
     let moment4 = moment3 * z;
     let moment5 = moment4 * z;
     let moment6 = moment5 * z;
-    return array<f32, 6>(moment1, moment2, moment3, moment4, moment5, moment6);
+    return mat2x4<f32>(vec4<f32>(moment1, moment2, moment3, moment4), vec4<f32>(moment5, moment6, 0.0, 0.0));
 }
 
 // What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
@@ -56,7 +56,7 @@ struct NmtSums {
 fn nmt_pass1(v: f32, v0: f32, v1: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(nmt_moment_depth(v, v0, v1), absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0], b[1], b[2]), vec4<f32>(b[3], b[4], b[5], 1.0), vec4<f32>(-v, v, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b[0].xyz), vec4<f32>(b[0].w, b[1].xy, 1.0), vec4<f32>(-v, v, 0.0, 0.0));
 }
 
 struct Frame {

@@ -32,26 +32,26 @@ fn nmt_moment_depth(v: f32, v0: f32, v1: f32) -> f32 {
 const NMT_ROUNDING: f32 = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-fn nmt_moments(z: f32, absorbance: f32) -> array<f32, 6> {
+fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32> {
     let moment1 = absorbance * z;
     let moment2 = moment1 * z;
     let moment3 = moment2 * z;
     let moment4 = moment3 * z;
     let moment5 = moment4 * z;
     let moment6 = moment5 * z;
-    return array<f32, 6>(moment1, moment2, moment3, moment4, moment5, moment6);
+    return mat2x4<f32>(vec4<f32>(moment1, moment2, moment3, moment4), vec4<f32>(moment5, moment6, 0.0, 0.0));
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: array<f32, 6>) -> array<f32, 6> {
+fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f32, b: mat2x4<f32>) -> mat2x4<f32> {
     let own = nmt_moments(z, absorbance);
-    let m1 = (b[0] - own[0]) * per_b0;
-    let m2 = (b[1] - own[1]) * per_b0;
-    let m3 = (b[2] - own[2]) * per_b0;
-    let m4 = (b[3] - own[3]) * per_b0;
-    let m5 = (b[4] - own[4]) * per_b0;
-    let m6 = (b[5] - own[5]) * per_b0;
+    let m1 = (b[0].x - own[0].x) * per_b0;
+    let m2 = (b[0].y - own[0].y) * per_b0;
+    let m3 = (b[0].z - own[0].z) * per_b0;
+    let m4 = (b[0].w - own[0].w) * per_b0;
+    let m5 = (b[1].x - own[1].x) * per_b0;
+    let m6 = (b[1].y - own[1].y) * per_b0;
     // Moments of z - c, one factor at a time.
     let m6_2 = m6 - c * m5;
     let m5_2 = m5 - c * m4;
@@ -77,9 +77,9 @@ fn nmt_recentred_moments(z: f32, absorbance: f32, c: f32, per_h: f32, per_b0: f3
     let per_h2 = per_h * per_h;
     let per_h3 = per_h2 * per_h;
     let per_h4 = per_h2 * per_h2;
-    return array<f32, 6>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0,
-        1.0), clamp(m4_5 * per_h4, -1.0, 1.0), clamp(m5_6 * per_h4 * per_h, -1.0, 1.0), clamp(m6_7 * per_h4 * per_h2,
-        -1.0, 1.0));
+    return mat2x4<f32>(vec4<f32>(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4
+        * per_h3, -1.0, 1.0), clamp(m4_5 * per_h4, -1.0, 1.0)), vec4<f32>(clamp(m5_6 * per_h4 * per_h, -1.0, 1.0),
+        clamp(m6_7 * per_h4 * per_h2, -1.0, 1.0), 0.0, 0.0));
 }
 
 // Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
@@ -182,10 +182,10 @@ const NMT_W3 = array<vec4<f32>, 4>(
 const NMT_B3: f32 = -0.117446944f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-fn nmt_share(f: array<f32, 9>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], f[3]);
-    let h0_1 = vec4<f32>(f[4], f[5], f[6], f[7]);
-    let h0_2 = vec4<f32>(f[8], 1.0f, 0.0f, 0.0f);
+fn nmt_share(f: mat3x4<f32>) -> f32 {
+    let h0_0 = f[0];
+    let h0_1 = f[1];
+    let h0_2 = vec4<f32>(f[2].x, 1.0f, 0.0f, 0.0f);
     let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1 + NMT_W1[2] * h0_2, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[3] * h0_0 + NMT_W1[4] * h0_1 + NMT_W1[5] * h0_2, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1 + NMT_W1[8] * h0_2, vec4<f32>(0.0f));
@@ -205,7 +205,7 @@ fn nmt_share(f: array<f32, 9>) -> f32 {
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, farthest: f32, z_nearest: f32,
-    z_farthest: f32, n: f32, b0: f32, b: array<f32, 6>) -> f32 {
+    z_farthest: f32, n: f32, b0: f32, b: mat2x4<f32>) -> f32 {
     let others = clamp(b0 - absorbance, 0.0, 1e30);
     var front = 0.0;
     if (v != nearest) {
@@ -220,7 +220,7 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                 let moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 let noise1 = moment_noise * (0.12 * sqrt(n));
                 let per_n = 1.0 / n;
-                let mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                let mean0 = nmt_shrink_to_prior(m[0].x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     let x = select(clamp((z - c) * per_h, -1.0, 1.0), nmt_place_in_thin(v, nearest, farthest), 0.01
@@ -229,12 +229,12 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     let noise2 = noise1 * further;
                     let noise3 = noise2 * further;
                     let most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    let raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    let raw_spread0 = clamp((m[0].y - mean0 * mean0) / most0, 0.0, 1.0);
                     let spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    let per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    let raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    let per_mass1 = 1.0 / max(1.0 - m[0].y, 1e-6);
+                    let raw_mean1 = clamp((m[0].x - m[0].z) * per_mass1, -1.0, 1.0);
                     let expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     let deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     let noise = noise3 * per_mass1;
@@ -244,18 +244,18 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         let most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        let raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        let raw_square1 = clamp(((m[0].y - m[0].w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         let offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         let square0 = spread0 * spread0;
                         let expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         let spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        let q0 = 1.0 - m[1];
-                        let q1 = m[0] - m[2];
-                        let q2 = m[1] - m[3];
-                        let q3 = m[2] - m[4];
-                        let q4 = m[3] - m[5];
+                        let q0 = 1.0 - m[0].y;
+                        let q1 = m[0].x - m[0].z;
+                        let q2 = m[0].y - m[0].w;
+                        let q3 = m[0].z - m[1].x;
+                        let q4 = m[0].w - m[1].y;
                         let q0_2 = q0 - q2;
                         let q1_2 = q1 - q3;
                         let q2_2 = q2 - q4;
@@ -267,8 +267,9 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
                         let rounded_2 = noise_2 * noise_growth * per_mass2;
                         let spread2 = 0.5 + (sqrt(clamp((q2_2 * per_mass2 - raw_mean2 * raw_mean2) / max(1.0
                             - raw_mean2 * raw_mean2, 1e-6), 0.0, 1.0)) - 0.5) * (1.0 / (1.0 + rounded_2 * rounded_2));
-                        front = others * nmt_share(array<f32, 9>(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
-                            mean0, spread0, mean1, spread1, mean2, spread2));
+                        front = others * nmt_share(mat3x4<f32>(vec4<f32>(x, log(n) * 0.48089835 - 1.0, log(others
+                            + 0.05), mean0), vec4<f32>(spread0, mean1, spread1, mean2), vec4<f32>(spread2, 0.0, 0.0,
+                            0.0)));
                     }
                 }
             }
@@ -277,16 +278,13 @@ fn nmt_fragment_transmittance(v: f32, z: f32, absorbance: f32, nearest: f32, far
     return min(exp(-front), 1.0);
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
     let nearest = -range.x;
-    let farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.w, sums0.x, array<f32, 6>(sums0.y, sums0.z, sums0.w, sums1.x, sums1.y, sums1.z)
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.w, sums0.x,
+        mat2x4<f32>(vec4<f32>(sums0.yzw, sums1.x), vec4<f32>(sums1.yz, 0.0, 0.0)));
 }
 
 struct Frame {

@@ -39,11 +39,11 @@ struct NmtSums {
 NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     float4 b = nmt_moments(w, absorbance);
-    NmtSums sums;
-    sums.sums0 = float4(absorbance, b[0], b[1], b[2]);
-    sums.sums1 = float4(b[3], 1.0, 0.0, 0.0);
-    sums.range = float4(-w, w, 0.0, 0.0);
-    return sums;
+    NmtSums result;
+    result.sums0 = float4(absorbance, b.xyz);
+    result.sums1 = float4(b.w, 1.0, 0.0, 0.0);
+    result.range = float4(-w, w, 0.0, 0.0);
+    return result;
 }
 
 struct Varying {

@@ -15,15 +15,9 @@ float nmt_expm1(float x) {
 
 // Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
-void nmt_features(float w, float w_min, float w_max, float n, float b0, float4 b1234, out float result[7]) {
+float2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, float4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    result[0] = d;
-    result[1] = n;
-    result[2] = b0;
-    result[3] = b1234.x;
-    result[4] = b1234.y;
-    result[5] = b1234.z;
-    result[6] = b1234.w;
+    return float2x4(float4(d, n, b0, b1234.x), float4(b1234.yzw, 0.0));
 }
 
 static const float4x4 NMT_W1[16] = {
@@ -93,9 +87,9 @@ static const float4 NMT_W3[4] = {
 static const float NMT_B3 = -0.06779878f;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
-    float4 h0_1 = float4(f[4], f[5], f[6], 1.0f);
+float nmt_transmittance(float2x4 f) {
+    float4 h0_0 = f[0];
+    float4 h0_1 = float4(f[1].xyz, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[2]) + mul(h0_1, NMT_W1[3]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[4]) + mul(h0_1, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -112,13 +106,10 @@ float nmt_transmittance(float f[7]) {
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float w, float4 sums0, float4 sums1, float4 range) {
-    float4 b = float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float f[7];
-    nmt_features(w, -range.x, range.y, sums1.y, sums0.x, b, f);
-    return nmt_transmittance(f);
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, float4(sums0.yzw, sums1.x)));
 }
 
 Texture2D<float4> sums0_texture : register(t0);

@@ -54,7 +54,7 @@ NmtSums nmt_pass1(
 ) {
     float _e2 = nmt_absorbance(alpha_1);
     metal::float4 _e3 = nmt_moments(w_1, _e2);
-    return NmtSums {metal::float4(_e2, _e3.x, _e3.y, _e3.z), metal::float4(_e3.w, 1.0, 0.0, 0.0), metal::float4(-(w_1), w_1, 0.0, 0.0)};
+    return NmtSums {metal::float4(_e2, _e3.xyz), metal::float4(_e3.w, 1.0, 0.0, 0.0), metal::float4(-(w_1), w_1, 0.0, 0.0)};
 }
 
 struct pass1_Input {

@@ -40,7 +40,7 @@ struct NmtSums {
 NmtSums nmt_pass1(float w, float alpha) {
     float absorbance = nmt_absorbance(alpha);
     vec4 b = nmt_moments(w, absorbance);
-    return NmtSums(vec4(absorbance, b[0], b[1], b[2]), vec4(b[3], 1.0, 0.0, 0.0), vec4(-w, w, 0.0, 0.0));
+    return NmtSums(vec4(absorbance, b.xyz), vec4(b.w, 1.0, 0.0, 0.0), vec4(-w, w, 0.0, 0.0));
 }
 
 // Not premultiplied.

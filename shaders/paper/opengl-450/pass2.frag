@@ -16,9 +16,9 @@ float nmt_expm1(float x) {
 
 // Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
-float[7] nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
+mat2x4 nmt_features(float w, float w_min, float w_max, float n, float b0, vec4 b1234) {
     float d = (w_max > w_min ? nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30) : 0.0);
-    return float[7](d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w);
+    return mat2x4(vec4(d, n, b0, b1234.x), vec4(b1234.yzw, 0.0));
 }
 
 const mat4 NMT_W1[16] = mat4[16](
@@ -88,9 +88,9 @@ const vec4 NMT_W3[4] = vec4[4](
 const float NMT_B3 = -0.06779878;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(float f[7]) {
-    vec4 h0_0 = vec4(f[0], f[1], f[2], f[3]);
-    vec4 h0_1 = vec4(f[4], f[5], f[6], 1.0);
+float nmt_transmittance(mat2x4 f) {
+    vec4 h0_0 = f[0];
+    vec4 h0_1 = vec4(f[1].xyz, 1.0);
     vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
     vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
     vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
@@ -107,11 +107,10 @@ float nmt_transmittance(float f[7]) {
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float w, vec4 sums0, vec4 sums1, vec4 range) {
-    vec4 b = vec4(sums0.y, sums0.z, sums0.w, sums1.x);
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, b));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4(sums0.yzw, sums1.x)));
 }
 
 layout(location = 1) in vec4 color;

@@ -38,7 +38,7 @@ struct NmtSums {
 fn nmt_pass1(w: f32, alpha: f32) -> NmtSums {
     let absorbance = nmt_absorbance(alpha);
     let b = nmt_moments(w, absorbance);
-    return NmtSums(vec4<f32>(absorbance, b[0], b[1], b[2]), vec4<f32>(b[3], 1.0, 0.0, 0.0), vec4<f32>(-w, w, 0.0, 0.0));
+    return NmtSums(vec4<f32>(absorbance, b.xyz), vec4<f32>(b.w, 1.0, 0.0, 0.0), vec4<f32>(-w, w, 0.0, 0.0));
 }
 
 struct Varying {

@@ -15,9 +15,9 @@ fn nmt_expm1(x: f32) -> f32 {
 
 // Pass 2: the features of a fragment at window depth w, from what pass 1 left in its pixel: least and greatest window
 // depth, number of fragments, total absorbance b0 and moments b1..b4.
-fn nmt_features(w: f32, w_min: f32, w_max: f32, n: f32, b0: f32, b1234: vec4<f32>) -> array<f32, 7> {
+fn nmt_features(w: f32, w_min: f32, w_max: f32, n: f32, b0: f32, b1234: vec4<f32>) -> mat2x4<f32> {
     let d = select(0.0, nmt_expm1(w - w_min) / max(nmt_expm1(w_max - w_min), 1e-30), w_max > w_min);
-    return array<f32, 7>(d, n, b0, b1234.x, b1234.y, b1234.z, b1234.w);
+    return mat2x4<f32>(vec4<f32>(d, n, b0, b1234.x), vec4<f32>(b1234.yzw, 0.0));
 }
 
 const NMT_W1 = array<mat4x4<f32>, 16>(
@@ -87,9 +87,9 @@ const NMT_W3 = array<vec4<f32>, 4>(
 const NMT_B3: f32 = -0.06779878f;
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: array<f32, 7>) -> f32 {
-    let h0_0 = vec4<f32>(f[0], f[1], f[2], f[3]);
-    let h0_1 = vec4<f32>(f[4], f[5], f[6], 1.0f);
+fn nmt_transmittance(f: mat2x4<f32>) -> f32 {
+    let h0_0 = f[0];
+    let h0_1 = vec4<f32>(f[1].xyz, 1.0f);
     let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4<f32>(0.0f));
     let h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4<f32>(0.0f));
     let h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4<f32>(0.0f));
@@ -106,11 +106,10 @@ fn nmt_transmittance(f: array<f32, 7>) -> f32 {
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 fn nmt_pass2(w: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>) -> f32 {
-    let b = vec4<f32>(sums0.y, sums0.z, sums0.w, sums1.x);
-    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, b));
+    return nmt_transmittance(nmt_features(w, -range.x, range.y, sums1.y, sums0.x, vec4<f32>(sums0.yzw, sums1.x)));
 }
 
 @group(1) @binding(0) var sums0_texture: texture_2d<f32>;

@@ -13,7 +13,7 @@
 fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>) -> vec4<f32> {
     let behind = exp(-sums0.x);
     let scale = select(0.0, (1.0 - behind) / max(weighted.w, 1e-37), weighted.w > 0.0);
-    return vec4<f32>(scale * weighted.xyz, behind);
+    return vec4<f32>(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 @group(0) @binding(0) var sums0_texture: texture_2d<f32>;

@@ -12,8 +12,8 @@
 // alpha.
 float4 nmt_resolve(float4 weighted, float4 sums0) {
     float behind = exp(-sums0.x);
-    float scale = weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0;
-    return float4(scale * weighted.xyz, behind);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return float4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
 }
 
 Texture2D<float4> sums0_texture : register(t0);

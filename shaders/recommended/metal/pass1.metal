@@ -14,9 +14,6 @@
 
 using metal::uint;
 
-struct type_1 {
-    float inner[4];
-};
 struct NmtSums {
     metal::float4 sums0;
     metal::float4 sums1;
@@ -64,7 +61,7 @@ float nmt_moment_depth(
     return (v1 > v0) ? metal::clamp(((2.0 * _e3) / metal::max(_e6, 0.000000000000000000000000000001)) - 1.0, -1.0, 1.0) : 0.0;
 }
 
-type_1 nmt_moments(
+metal::float4 nmt_moments(
     float z,
     float absorbance
 ) {
@@ -72,7 +69,7 @@ type_1 nmt_moments(
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
-    return type_1 {{moment1, moment2, moment3, moment4}};
+    return metal::float4(moment1, moment2, moment3, moment4);
 }
 
 NmtSums nmt_pass1(
@@ -83,8 +80,8 @@ NmtSums nmt_pass1(
 ) {
     float _e4 = nmt_absorbance(alpha_1);
     float _e5 = nmt_moment_depth(v_1, v0_1, v1_1);
-    type_1 _e6 = nmt_moments(_e5, _e4);
-    return NmtSums {metal::float4(_e4, _e6.inner[0], _e6.inner[1], _e6.inner[2]), metal::float4(_e6.inner[3], 1.0, 0.0, 0.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
+    metal::float4 _e6 = nmt_moments(_e5, _e4);
+    return NmtSums {metal::float4(_e4, _e6.xyz), metal::float4(_e6.w, 1.0, 0.0, 0.0), metal::float4(-(v_1), v_1, 0.0, 0.0)};
 }
 
 struct pass1_Input {

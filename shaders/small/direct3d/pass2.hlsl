@@ -32,27 +32,22 @@ float nmt_moment_depth(float v, float v0, float v1) {
 static const float NMT_ROUNDING = 1.1920929e-7;
 
 // Pass 1: what a fragment at moment depth z adds to b1, b2 and so on; to b0 it adds its absorbance, to n it adds 1.
-void nmt_moments(float z, float absorbance, out float result[4]) {
+float4 nmt_moments(float z, float absorbance) {
     float moment1 = absorbance * z;
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
-    result[0] = moment1;
-    result[1] = moment2;
-    result[2] = moment3;
-    result[3] = moment4;
+    return float4(moment1, moment2, moment3, moment4);
 }
 
 // Moments of the other fragments in the pixel's own range, centre c and half-range 1 / per_h, normalised by their
 // absorbance 1 / per_b0.
-void nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float b[4], out float
-    result[4]) {
-    float own[4];
-    nmt_moments(z, absorbance, own);
-    float m1 = (b[0] - own[0]) * per_b0;
-    float m2 = (b[1] - own[1]) * per_b0;
-    float m3 = (b[2] - own[2]) * per_b0;
-    float m4 = (b[3] - own[3]) * per_b0;
+float4 nmt_recentred_moments(float z, float absorbance, float c, float per_h, float per_b0, float4 b) {
+    float4 own = nmt_moments(z, absorbance);
+    float m1 = (b.x - own.x) * per_b0;
+    float m2 = (b.y - own.y) * per_b0;
+    float m3 = (b.z - own.z) * per_b0;
+    float m4 = (b.w - own.w) * per_b0;
     // Moments of z - c, one factor at a time.
     float m4_2 = m4 - c * m3;
     float m3_2 = m3 - c * m2;
@@ -67,10 +62,8 @@ void nmt_recentred_moments(float z, float absorbance, float c, float per_h, floa
     float per_h2 = per_h * per_h;
     float per_h3 = per_h2 * per_h;
     float per_h4 = per_h2 * per_h2;
-    result[0] = clamp(m1_2 * per_h, -1.0, 1.0);
-    result[1] = clamp(m2_3 * per_h2, -1.0, 1.0);
-    result[2] = clamp(m3_4 * per_h3, -1.0, 1.0);
-    result[3] = clamp(m4_5 * per_h4, -1.0, 1.0);
+    return float4(clamp(m1_2 * per_h, -1.0, 1.0), clamp(m2_3 * per_h2, -1.0, 1.0), clamp(m3_4 * per_h3, -1.0, 1.0),
+        clamp(m4_5 * per_h4, -1.0, 1.0));
 }
 
 // Shrinks a noisy value towards what is expected of it, as far as the noise exceeds the usual deviation.
@@ -129,9 +122,9 @@ static const float4 NMT_W3[2] = {
 static const float NMT_B3 = -0.09972816f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(float f[7]) {
-    float4 h0_0 = float4(f[0], f[1], f[2], f[3]);
-    float4 h0_1 = float4(f[4], f[5], f[6], 1.0f);
+float nmt_share(float2x4 f) {
+    float4 h0_0 = f[0];
+    float4 h0_1 = float4(f[1].xyz, 1.0f);
     float4 h1_0 = max(mul(h0_0, NMT_W1[0]) + mul(h0_1, NMT_W1[1]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_1 = max(mul(h0_0, NMT_W1[2]) + mul(h0_1, NMT_W1[3]), float4(0.0f, 0.0f, 0.0f, 0.0f));
     float4 h1_2 = max(mul(h0_0, NMT_W1[4]) + mul(h0_1, NMT_W1[5]), float4(0.0f, 0.0f, 0.0f, 0.0f));
@@ -145,7 +138,7 @@ float nmt_share(float f[7]) {
 // Pass 2: transmittance in front of a fragment, exp(-front). Parameters as of nmt_recentred; what is known without the
 // network branches around the features and the network, so that groups of threads in which all is known skip them.
 float nmt_fragment_transmittance(float v, float z, float absorbance, float nearest, float farthest, float z_nearest,
-    float z_farthest, float n, float b0, float b[4]) {
+    float z_farthest, float n, float b0, float4 b) {
     float others = clamp(b0 - absorbance, 0.0, 1e30);
     float front = 0.0;
     if (v != nearest) {
@@ -155,13 +148,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                 float c = 0.5 * (z_nearest + z_farthest);
                 float per_b0 = 1.0 / max(max(others, b0 * 1e-6), 1e-30);
                 float per_h = 1.0 / max(0.5 * (z_farthest - z_nearest), 1e-8);
-                float m[4];
-                nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b, m);
+                float4 m = nmt_recentred_moments(z, absorbance, c, per_h, per_b0, b);
                 float noise_growth = 1.0 + 2.0 * abs(c) * per_h;
                 float moment_noise = NMT_ROUNDING * noise_growth * b0 * per_b0;
                 float noise1 = moment_noise * (0.12 * sqrt(n));
                 float per_n = 1.0 / n;
-                float mean0 = nmt_shrink_to_prior(m[0], 0.0, noise1, 0.22 + 0.7 * per_n);
+                float mean0 = nmt_shrink_to_prior(m.x, 0.0, noise1, 0.22 + 0.7 * per_n);
                 front = others * clamp(0.5 - 0.5 * mean0, 0.0, 1.0);
                 if (n != 3.0) {
                     float x = ((farthest - nearest) / nearest < 0.01 ? nmt_place_in_thin(v, nearest, farthest)
@@ -170,12 +162,12 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     float noise2 = noise1 * further;
                     float noise3 = noise2 * further;
                     float most0 = max(1.0 - mean0 * mean0, 1e-6);
-                    float raw_spread0 = clamp((m[1] - mean0 * mean0) / most0, 0.0, 1.0);
+                    float raw_spread0 = clamp((m.y - mean0 * mean0) / most0, 0.0, 1.0);
                     float spread0 = nmt_shrink_to_prior(raw_spread0, 0.3 + 1.8 * per_n, noise2 / most0, 0.12 + 0.5
                         * per_n);
                     // The same of (1 - x^2) times the measure, which does not hold the ends.
-                    float per_mass1 = 1.0 / max(1.0 - m[1], 1e-6);
-                    float raw_mean1 = clamp((m[0] - m[2]) * per_mass1, -1.0, 1.0);
+                    float per_mass1 = 1.0 / max(1.0 - m.y, 1e-6);
+                    float raw_mean1 = clamp((m.x - m.z) * per_mass1, -1.0, 1.0);
                     float expected_mean1 = mean0 * (1.0 - spread0) / (1.0 + spread0);
                     float deviation = (0.17 + 3.1 * per_n) * (spread0 + 0.02);
                     float noise = noise3 * per_mass1;
@@ -185,16 +177,15 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
                     front = others * nmt_share_of_four(x, mean0, spread0, mean1, transition_width);
                     if (n != 4.0) {
                         float most1 = max(1.0 - mean1 * mean1, 1e-6);
-                        float raw_square1 = clamp(((m[1] - m[3]) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
+                        float raw_square1 = clamp(((m.y - m.w) * per_mass1 - mean1 * mean1) / most1, 0.0, 1.0);
                         float offset = mean1 * (1.0 + spread0) - mean0 * (1.0 - spread0);
                         float square0 = spread0 * spread0;
                         float expected_square1 = clamp((0.94 - 3.8 * per_n + 4.0 * square0 * square0 - 1.2 * offset
                             * offset) * spread0 / (1.0 + spread0 + spread0), 0.0, 1.0);
                         float spread1 = sqrt(nmt_shrink_to_prior(raw_square1, expected_square1, noise3 * further
                             * per_mass1 / most1, (0.12 + 1.4 * per_n) * (spread0 + 0.02)));
-                        float features[7] = { x, log(n) * 0.48089835 - 1.0, log(others + 0.05), mean0, spread0,
-                            mean1, spread1 };
-                        front = others * nmt_share(features);
+                        front = others * nmt_share(float2x4(float4(x, log(n) * 0.48089835 - 1.0, log(others + 0.05),
+                            mean0), float4(spread0, mean1, spread1, 0.0)));
                     }
                 }
             }
@@ -203,17 +194,13 @@ float nmt_fragment_transmittance(float v, float z, float absorbance, float neare
     return min(exp(-front), 1.0);
 }
 
-// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up
-// (alpha * T * color, alpha * T).
+// Pass 2 in one call: transmittance T in front of a fragment, from what pass 1 left in its pixel. Add up (alpha * T *
+// color, alpha * T).
 float nmt_pass2(float v, float v0, float v1, float alpha, float4 sums0, float4 sums1, float4 range) {
-    float b[4] = { sums0.y, sums0.z, sums0.w, sums1.x };
     float nearest = -range.x;
-    float farthest = range.y;
-    return nmt_fragment_transmittance(
-        v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha),
-        nearest, farthest, nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(farthest, v0, v1),
-        sums1.y, sums0.x, b
-    );
+    return nmt_fragment_transmittance(v, nmt_moment_depth(v, v0, v1), nmt_absorbance(alpha), nearest, range.y,
+        nmt_moment_depth(nearest, v0, v1), nmt_moment_depth(range.y, v0, v1), sums1.y, sums0.x, float4(sums0.yzw,
+        sums1.x));
 }
 
 cbuffer Frame : register(b0) {

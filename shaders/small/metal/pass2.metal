@@ -13,17 +13,11 @@
 
 using metal::uint;
 
-struct type_1 {
-    float inner[4];
-};
-struct type_3 {
+struct NmtType3 {
     metal::float4x4 inner[8];
 };
-struct type_5 {
+struct NmtType4 {
     metal::float4 inner[2];
-};
-struct type_6 {
-    float inner[7];
 };
 struct Frame {
     float v0;
@@ -36,10 +30,10 @@ struct Varying {
     metal::float4 color;
 };
 constant float NMT_ROUNDING = 0.00000011920929;
-constant type_3 NMT_W1 = type_3 {{metal::float4x4(metal::float4(0.5572419, 0.8873689, 0.025650654, -2.3207302), metal::float4(-0.34461814, -0.44891888, -0.39050588, -0.18091549), metal::float4(-0.071615376, -0.024140464, -0.008282083, 0.038272522), metal::float4(-3.7245471, 2.6387365, -2.2102082, -0.5306895)), metal::float4x4(metal::float4(2.9037392, 4.164609, 1.6416957, -1.0860678), metal::float4(3.182191, -1.0674255, -0.9432166, 2.8805542), metal::float4(-3.5021276, 1.3302044, -0.5502461, 1.2838587), metal::float4(2.1899598, -1.1524864, 2.8668165, 0.26594585)), metal::float4x4(metal::float4(-5.0277195, 3.556171, -4.748659, -3.4211285), metal::float4(-0.089546226, 0.9750353, 0.13666514, -0.24305318), metal::float4(0.11110483, -0.09587958, 0.028702937, 0.08554635), metal::float4(-1.3789594, -1.5830472, -0.08525755, -0.4679912)), metal::float4x4(metal::float4(0.8829105, 1.4194763, -0.053129755, -4.384808), metal::float4(5.9241633, 0.9597082, 4.626354, -0.6152009), metal::float4(-0.9577396, -0.31151232, -1.3498255, -0.17014448), metal::float4(-1.2974775, 2.533871, 0.26404834, 1.322599)), metal::float4x4(metal::float4(-2.8703783, 6.6934257, -0.7819008, 3.0343735), metal::float4(0.48690128, 0.11834759, 0.17926306, -0.20529807), metal::float4(-0.0747379, -0.10869953, 0.011314124, -0.018088961), metal::float4(-1.3296846, -3.0842803, 2.6905768, 2.3319657)), metal::float4x4(metal::float4(-0.42825016, -0.66429555, -6.518144, -0.7735734), metal::float4(-1.6082613, 0.79219943, -3.6361427, -2.9449046), metal::float4(2.9222262, 1.6352106, 6.105769, -1.6681633), metal::float4(-2.4759755, -2.758409, -1.277408, 3.7719758)), metal::float4x4(metal::float4(-3.9685419, -0.07865249, 3.7518868, -4.5860977), metal::float4(-0.24054211, -0.016617632, 0.43475664, 0.22254096), metal::float4(0.10049601, 0.0337685, -0.1098763, 0.017653327), metal::float4(1.6598035, -5.834993, -5.4151325, -0.41488847)), metal::float4x4(metal::float4(-1.4044262, -5.671788, 1.827299, 0.9802938), metal::float4(0.16522916, 2.2399037, -0.2985399, 0.34238428), metal::float4(-5.7326884, 0.47215062, -1.3136361, -0.68593293), metal::float4(2.0557249, 1.7273939, -0.45318872, -4.756142))}};
-constant type_3 NMT_W2 = type_3 {{metal::float4x4(metal::float4(-1.0931103, 0.44210717, -1.2169352, -0.008068636), metal::float4(-0.46324944, 0.43549836, 0.5542804, 1.1708078), metal::float4(-2.2489386, 0.16765693, 1.8471042, -1.4360818), metal::float4(0.7370069, 0.3038649, 0.3395028, 0.80514723)), metal::float4x4(metal::float4(-3.49791, -0.6550794, 0.46273717, -1.0264783), metal::float4(-0.39480978, 0.22474408, 1.956778, -0.082365066), metal::float4(-0.57403874, 0.83014053, -0.7696553, 0.6588965), metal::float4(3.1965384, -1.0385951, -2.110678, 0.43452936)), metal::float4x4(metal::float4(-1.2251607, 0.5895338, -0.8918203, 0.8026775), metal::float4(-0.41444397, 0.053060696, -6.2512116, -2.7577538), metal::float4(4.966727, -0.31968412, 0.58516496, 0.77836883), metal::float4(1.5743009, -0.9283775, -0.74404365, 0.6748018)), metal::float4x4(metal::float4(2.7018049, 2.1556873, 0.6269551, 1.3626245), metal::float4(-1.4378589, 0.064023025, 1.8883291, 0.014146412), metal::float4(-3.531625, 0.04492224, 2.324661, 1.9930973), metal::float4(-25.788624, 2.5182197, -1.4758978, 3.1982157)), metal::float4x4(metal::float4(-0.41391823, 1.1319875, -1.5793422, -2.3548183), metal::float4(-1.1366525, -1.5580677, 0.22625221, -2.727241), metal::float4(1.318036, -0.8864321, -0.44220364, 0.3394501), metal::float4(-1.5196753, -7.6356916, 1.4066124, -0.07263669)), metal::float4x4(metal::float4(0.79437137, -1.5935353, -2.7841825, 1.2082449), metal::float4(1.3773485, -0.25885287, -2.0684526, -3.7339642), metal::float4(-0.3631151, -21.331264, 0.13827866, 0.43595257), metal::float4(-3.5297334, 0.29987663, -5.3779497, -0.21252474)), metal::float4x4(metal::float4(-1.9185516, 1.1649779, 2.1195953, 2.3788228), metal::float4(-0.16068031, 1.6363701, 3.9007616, 4.429163), metal::float4(-6.5963273, 4.705528, 2.5016162, 3.4034655), metal::float4(-2.0963562, 2.1782613, 0.7483879, 3.5064597)), metal::float4x4(metal::float4(0.659403, 2.378958, 0.81767404, -0.9107636), metal::float4(2.0063715, 0.6180353, 5.9041595, 0.08523572), metal::float4(-2.0180254, -0.19664863, -0.51828355, -0.41485465), metal::float4(-5.688983, 4.35494, -39.64846, 12.921714))}};
-constant type_5 NMT_B2 = type_5 {{metal::float4(-1.4392625, -3.6934829, -1.2812184, 3.0139205), metal::float4(4.0596824, -2.0969372, 1.9294189, -1.1730818)}};
-constant type_5 NMT_W3 = type_5 {{metal::float4(-0.21454798, 0.23790133, 0.21061999, -0.41597816), metal::float4(-0.20229746, 0.22367835, 0.15568821, -0.21407762)}};
+constant NmtType3 NMT_W1 = NmtType3 {{metal::float4x4(metal::float4(0.5572419, 0.8873689, 0.025650654, -2.3207302), metal::float4(-0.34461814, -0.44891888, -0.39050588, -0.18091549), metal::float4(-0.071615376, -0.024140464, -0.008282083, 0.038272522), metal::float4(-3.7245471, 2.6387365, -2.2102082, -0.5306895)), metal::float4x4(metal::float4(2.9037392, 4.164609, 1.6416957, -1.0860678), metal::float4(3.182191, -1.0674255, -0.9432166, 2.8805542), metal::float4(-3.5021276, 1.3302044, -0.5502461, 1.2838587), metal::float4(2.1899598, -1.1524864, 2.8668165, 0.26594585)), metal::float4x4(metal::float4(-5.0277195, 3.556171, -4.748659, -3.4211285), metal::float4(-0.089546226, 0.9750353, 0.13666514, -0.24305318), metal::float4(0.11110483, -0.09587958, 0.028702937, 0.08554635), metal::float4(-1.3789594, -1.5830472, -0.08525755, -0.4679912)), metal::float4x4(metal::float4(0.8829105, 1.4194763, -0.053129755, -4.384808), metal::float4(5.9241633, 0.9597082, 4.626354, -0.6152009), metal::float4(-0.9577396, -0.31151232, -1.3498255, -0.17014448), metal::float4(-1.2974775, 2.533871, 0.26404834, 1.322599)), metal::float4x4(metal::float4(-2.8703783, 6.6934257, -0.7819008, 3.0343735), metal::float4(0.48690128, 0.11834759, 0.17926306, -0.20529807), metal::float4(-0.0747379, -0.10869953, 0.011314124, -0.018088961), metal::float4(-1.3296846, -3.0842803, 2.6905768, 2.3319657)), metal::float4x4(metal::float4(-0.42825016, -0.66429555, -6.518144, -0.7735734), metal::float4(-1.6082613, 0.79219943, -3.6361427, -2.9449046), metal::float4(2.9222262, 1.6352106, 6.105769, -1.6681633), metal::float4(-2.4759755, -2.758409, -1.277408, 3.7719758)), metal::float4x4(metal::float4(-3.9685419, -0.07865249, 3.7518868, -4.5860977), metal::float4(-0.24054211, -0.016617632, 0.43475664, 0.22254096), metal::float4(0.10049601, 0.0337685, -0.1098763, 0.017653327), metal::float4(1.6598035, -5.834993, -5.4151325, -0.41488847)), metal::float4x4(metal::float4(-1.4044262, -5.671788, 1.827299, 0.9802938), metal::float4(0.16522916, 2.2399037, -0.2985399, 0.34238428), metal::float4(-5.7326884, 0.47215062, -1.3136361, -0.68593293), metal::float4(2.0557249, 1.7273939, -0.45318872, -4.756142))}};
+constant NmtType3 NMT_W2 = NmtType3 {{metal::float4x4(metal::float4(-1.0931103, 0.44210717, -1.2169352, -0.008068636), metal::float4(-0.46324944, 0.43549836, 0.5542804, 1.1708078), metal::float4(-2.2489386, 0.16765693, 1.8471042, -1.4360818), metal::float4(0.7370069, 0.3038649, 0.3395028, 0.80514723)), metal::float4x4(metal::float4(-3.49791, -0.6550794, 0.46273717, -1.0264783), metal::float4(-0.39480978, 0.22474408, 1.956778, -0.082365066), metal::float4(-0.57403874, 0.83014053, -0.7696553, 0.6588965), metal::float4(3.1965384, -1.0385951, -2.110678, 0.43452936)), metal::float4x4(metal::float4(-1.2251607, 0.5895338, -0.8918203, 0.8026775), metal::float4(-0.41444397, 0.053060696, -6.2512116, -2.7577538), metal::float4(4.966727, -0.31968412, 0.58516496, 0.77836883), metal::float4(1.5743009, -0.9283775, -0.74404365, 0.6748018)), metal::float4x4(metal::float4(2.7018049, 2.1556873, 0.6269551, 1.3626245), metal::float4(-1.4378589, 0.064023025, 1.8883291, 0.014146412), metal::float4(-3.531625, 0.04492224, 2.324661, 1.9930973), metal::float4(-25.788624, 2.5182197, -1.4758978, 3.1982157)), metal::float4x4(metal::float4(-0.41391823, 1.1319875, -1.5793422, -2.3548183), metal::float4(-1.1366525, -1.5580677, 0.22625221, -2.727241), metal::float4(1.318036, -0.8864321, -0.44220364, 0.3394501), metal::float4(-1.5196753, -7.6356916, 1.4066124, -0.07263669)), metal::float4x4(metal::float4(0.79437137, -1.5935353, -2.7841825, 1.2082449), metal::float4(1.3773485, -0.25885287, -2.0684526, -3.7339642), metal::float4(-0.3631151, -21.331264, 0.13827866, 0.43595257), metal::float4(-3.5297334, 0.29987663, -5.3779497, -0.21252474)), metal::float4x4(metal::float4(-1.9185516, 1.1649779, 2.1195953, 2.3788228), metal::float4(-0.16068031, 1.6363701, 3.9007616, 4.429163), metal::float4(-6.5963273, 4.705528, 2.5016162, 3.4034655), metal::float4(-2.0963562, 2.1782613, 0.7483879, 3.5064597)), metal::float4x4(metal::float4(0.659403, 2.378958, 0.81767404, -0.9107636), metal::float4(2.0063715, 0.6180353, 5.9041595, 0.08523572), metal::float4(-2.0180254, -0.19664863, -0.51828355, -0.41485465), metal::float4(-5.688983, 4.35494, -39.64846, 12.921714))}};
+constant NmtType4 NMT_B2 = NmtType4 {{metal::float4(-1.4392625, -3.6934829, -1.2812184, 3.0139205), metal::float4(4.0596824, -2.0969372, 1.9294189, -1.1730818)}};
+constant NmtType4 NMT_W3 = NmtType4 {{metal::float4(-0.21454798, 0.23790133, 0.21061999, -0.41597816), metal::float4(-0.20229746, 0.22367835, 0.15568821, -0.21407762)}};
 constant float NMT_B3 = -0.09972816;
 
 float nmt_absorbance(
@@ -68,7 +62,7 @@ float nmt_moment_depth(
     return (v1 > v0) ? metal::clamp(((2.0 * _e3) / metal::max(_e6, 0.000000000000000000000000000001)) - 1.0, -1.0, 1.0) : 0.0;
 }
 
-type_1 nmt_moments(
+metal::float4 nmt_moments(
     float z,
     float absorbance
 ) {
@@ -76,22 +70,22 @@ type_1 nmt_moments(
     float moment2 = moment1 * z;
     float moment3 = moment2 * z;
     float moment4 = moment3 * z;
-    return type_1 {{moment1, moment2, moment3, moment4}};
+    return metal::float4(moment1, moment2, moment3, moment4);
 }
 
-type_1 nmt_recentred_moments(
+metal::float4 nmt_recentred_moments(
     float z_1,
     float absorbance_1,
     float c,
     float per_h,
     float per_b0,
-    type_1 b_1
+    metal::float4 b_1
 ) {
-    type_1 _e6 = nmt_moments(z_1, absorbance_1);
-    float m1 = (b_1.inner[0] - _e6.inner[0]) * per_b0;
-    float m2 = (b_1.inner[1] - _e6.inner[1]) * per_b0;
-    float m3 = (b_1.inner[2] - _e6.inner[2]) * per_b0;
-    float m4 = (b_1.inner[3] - _e6.inner[3]) * per_b0;
+    metal::float4 _e6 = nmt_moments(z_1, absorbance_1);
+    float m1 = (b_1.x - _e6.x) * per_b0;
+    float m2 = (b_1.y - _e6.y) * per_b0;
+    float m3 = (b_1.z - _e6.z) * per_b0;
+    float m4 = (b_1.w - _e6.w) * per_b0;
     float m4_2 = m4 - (c * m3);
     float m3_2 = m3 - (c * m2);
     float m2_2 = m2 - (c * m1);
@@ -105,7 +99,7 @@ type_1 nmt_recentred_moments(
     float per_h2 = per_h * per_h;
     float per_h3 = per_h2 * per_h;
     float per_h4 = per_h2 * per_h2;
-    return type_1 {{metal::clamp(m1_2 * per_h, -1.0, 1.0), metal::clamp(m2_3 * per_h2, -1.0, 1.0), metal::clamp(m3_4 * per_h3, -1.0, 1.0), metal::clamp(m4_5 * per_h4, -1.0, 1.0)}};
+    return metal::float4(metal::clamp(m1_2 * per_h, -1.0, 1.0), metal::clamp(m2_3 * per_h2, -1.0, 1.0), metal::clamp(m3_4 * per_h3, -1.0, 1.0), metal::clamp(m4_5 * per_h4, -1.0, 1.0));
 }
 
 float nmt_shrink_to_prior(
@@ -145,10 +139,10 @@ float nmt_share_of_four(
 }
 
 float nmt_share(
-    type_6 f
+    metal::float2x4 f
 ) {
-    metal::float4 h0_0 = metal::float4(f.inner[0], f.inner[1], f.inner[2], f.inner[3]);
-    metal::float4 h0_1 = metal::float4(f.inner[4], f.inner[5], f.inner[6], 1.0);
+    metal::float4 h0_0 = f[0];
+    metal::float4 h0_1 = metal::float4(f[1].xyz, 1.0);
     metal::float4 h1_0 = metal::max((metal::float4x4(metal::float4(0.5572419, 0.8873689, 0.025650654, -2.3207302), metal::float4(-0.34461814, -0.44891888, -0.39050588, -0.18091549), metal::float4(-0.071615376, -0.024140464, -0.008282083, 0.038272522), metal::float4(-3.7245471, 2.6387365, -2.2102082, -0.5306895)) * h0_0) + (metal::float4x4(metal::float4(2.9037392, 4.164609, 1.6416957, -1.0860678), metal::float4(3.182191, -1.0674255, -0.9432166, 2.8805542), metal::float4(-3.5021276, 1.3302044, -0.5502461, 1.2838587), metal::float4(2.1899598, -1.1524864, 2.8668165, 0.26594585)) * h0_1), metal::float4(0.0));
     metal::float4 h1_1 = metal::max((metal::float4x4(metal::float4(-5.0277195, 3.556171, -4.748659, -3.4211285), metal::float4(-0.089546226, 0.9750353, 0.13666514, -0.24305318), metal::float4(0.11110483, -0.09587958, 0.028702937, 0.08554635), metal::float4(-1.3789594, -1.5830472, -0.08525755, -0.4679912)) * h0_0) + (metal::float4x4(metal::float4(0.8829105, 1.4194763, -0.053129755, -4.384808), metal::float4(5.9241633, 0.9597082, 4.626354, -0.6152009), metal::float4(-0.9577396, -0.31151232, -1.3498255, -0.17014448), metal::float4(-1.2974775, 2.533871, 0.26404834, 1.322599)) * h0_1), metal::float4(0.0));
     metal::float4 h1_2 = metal::max((metal::float4x4(metal::float4(-2.8703783, 6.6934257, -0.7819008, 3.0343735), metal::float4(0.48690128, 0.11834759, 0.17926306, -0.20529807), metal::float4(-0.0747379, -0.10869953, 0.011314124, -0.018088961), metal::float4(-1.3296846, -3.0842803, 2.6905768, 2.3319657)) * h0_0) + (metal::float4x4(metal::float4(-0.42825016, -0.66429555, -6.518144, -0.7735734), metal::float4(-1.6082613, 0.79219943, -3.6361427, -2.9449046), metal::float4(2.9222262, 1.6352106, 6.105769, -1.6681633), metal::float4(-2.4759755, -2.758409, -1.277408, 3.7719758)) * h0_1), metal::float4(0.0));
@@ -169,7 +163,7 @@ float nmt_fragment_transmittance(
     float z_farthest,
     float n,
     float b0,
-    type_1 b_2
+    metal::float4 b_2
 ) {
     float front = 0.0;
     float others = metal::clamp(b0 - absorbance_2, 0.0, 1000000000000000000000000000000.0);
@@ -180,12 +174,12 @@ float nmt_fragment_transmittance(
                 float c_1 = 0.5 * (z_nearest + z_farthest);
                 float per_b0_1 = 1.0 / metal::max(metal::max(others, b0 * 0.000001), 0.000000000000000000000000000001);
                 float per_h_1 = 1.0 / metal::max(0.5 * (z_farthest - z_nearest), 0.00000001);
-                type_1 _e38 = nmt_recentred_moments(z_2, absorbance_2, c_1, per_h_1, per_b0_1, b_2);
+                metal::float4 _e38 = nmt_recentred_moments(z_2, absorbance_2, c_1, per_h_1, per_b0_1, b_2);
                 float noise_growth = 1.0 + ((2.0 * metal::abs(c_1)) * per_h_1);
                 float moment_noise = ((NMT_ROUNDING * noise_growth) * b0) * per_b0_1;
                 float noise1 = moment_noise * (0.12 * metal::sqrt(n));
                 float per_n = 1.0 / n;
-                float _e61 = nmt_shrink_to_prior(_e38.inner[0], 0.0, noise1, 0.22 + (0.7 * per_n));
+                float _e61 = nmt_shrink_to_prior(_e38.x, 0.0, noise1, 0.22 + (0.7 * per_n));
                 front = others * metal::clamp(0.5 - (0.5 * _e61), 0.0, 1.0);
                 if (n != 3.0) {
                     float _e77 = nmt_place_in_thin(v_2, nearest_1, farthest_1);
@@ -194,10 +188,10 @@ float nmt_fragment_transmittance(
                     float noise2 = noise1 * further;
                     float noise3 = noise2 * further;
                     float most0 = metal::max(1.0 - (_e61 * _e61), 0.000001);
-                    float raw_spread0 = metal::clamp((_e38.inner[1] - (_e61 * _e61)) / most0, 0.0, 1.0);
+                    float raw_spread0 = metal::clamp((_e38.y - (_e61 * _e61)) / most0, 0.0, 1.0);
                     float _e108 = nmt_shrink_to_prior(raw_spread0, 0.3 + (1.8 * per_n), noise2 / most0, 0.12 + (0.5 * per_n));
-                    float per_mass1 = 1.0 / metal::max(1.0 - _e38.inner[1], 0.000001);
-                    float raw_mean1 = metal::clamp((_e38.inner[0] - _e38.inner[2]) * per_mass1, -1.0, 1.0);
+                    float per_mass1 = 1.0 / metal::max(1.0 - _e38.y, 0.000001);
+                    float raw_mean1 = metal::clamp((_e38.x - _e38.z) * per_mass1, -1.0, 1.0);
                     float expected_mean1 = (_e61 * (1.0 - _e108)) / (1.0 + _e108);
                     float deviation_1 = (0.17 + (3.1 * per_n)) * (_e108 + 0.02);
                     float noise_1 = noise3 * per_mass1;
@@ -208,21 +202,21 @@ float nmt_fragment_transmittance(
                     front = others * _e144;
                     if (n != 4.0) {
                         float most1 = metal::max(1.0 - (_e140 * _e140), 0.000001);
-                        float raw_square1 = metal::clamp((((_e38.inner[1] - _e38.inner[3]) * per_mass1) - (_e140 * _e140)) / most1, 0.0, 1.0);
+                        float raw_square1 = metal::clamp((((_e38.y - _e38.w) * per_mass1) - (_e140 * _e140)) / most1, 0.0, 1.0);
                         float offset = (_e140 * (1.0 + _e108)) - (_e61 * (1.0 - _e108));
                         float square0 = _e108 * _e108;
                         float expected_square1 = metal::clamp(((((0.94 - (3.8 * per_n)) + ((4.0 * square0) * square0)) - ((1.2 * offset) * offset)) * _e108) / ((1.0 + _e108) + _e108), 0.0, 1.0);
                         float _e201 = nmt_shrink_to_prior(raw_square1, expected_square1, ((noise3 * further) * per_mass1) / most1, (0.12 + (1.4 * per_n)) * (_e108 + 0.02));
                         float spread1 = metal::sqrt(_e201);
-                        float _e212 = nmt_share(type_6 {{x_2, (metal::log(n) * 0.48089835) - 1.0, metal::log(others + 0.05), _e61, _e108, _e140, spread1}});
-                        front = others * _e212;
+                        float _e215 = nmt_share(metal::float2x4(metal::float4(x_2, (metal::log(n) * 0.48089835) - 1.0, metal::log(others + 0.05), _e61), metal::float4(_e108, _e140, spread1, 0.0)));
+                        front = others * _e215;
                     }
                 }
             }
         }
     }
-    float _e214 = front;
-    return metal::min(metal::exp(-(_e214)), 1.0);
+    float _e217 = front;
+    return metal::min(metal::exp(-(_e217)), 1.0);
 }
 
 float nmt_pass2(
@@ -235,13 +229,12 @@ float nmt_pass2(
     metal::float4 range
 ) {
     float nearest_2 = -(range.x);
-    float farthest_2 = range.y;
-    float _e10 = nmt_moment_depth(v_3, v0_1, v1_1);
-    float _e11 = nmt_absorbance(alpha_1);
+    float _e9 = nmt_moment_depth(v_3, v0_1, v1_1);
+    float _e10 = nmt_absorbance(alpha_1);
     float _e12 = nmt_moment_depth(nearest_2, v0_1, v1_1);
-    float _e13 = nmt_moment_depth(farthest_2, v0_1, v1_1);
-    float _e21 = nmt_fragment_transmittance(v_3, _e10, _e11, nearest_2, farthest_2, _e12, _e13, sums1.y, sums0.x, type_1 {{sums0.y, sums0.z, sums0.w, sums1.x}});
-    return _e21;
+    float _e14 = nmt_moment_depth(range.y, v0_1, v1_1);
+    float _e20 = nmt_fragment_transmittance(v_3, _e9, _e10, nearest_2, range.y, _e12, _e14, sums1.y, sums0.x, metal::float4(sums0.yzw, sums1.x));
+    return _e20;
 }
 metal::int2 naga_f2i32(metal::float2 value) {
     return static_cast<metal::int2>(metal::clamp(value, -2147483600.0, 2147483500.0));

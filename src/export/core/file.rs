@@ -1,13 +1,14 @@
 //! Files of a core, ready to be included: with a tail that is a beta law, or with the network that shares it out.
 
 use super::{CoreBinding, CoreLanguage, MAX_SHADER_MOMENTS, codes, insert, weigh, weigh_by_network};
-use crate::export::calls::resolve;
+use crate::export::calls::write_resolve;
 use crate::export::files::ShaderFile;
 use crate::export::shader::{include_guard, source};
 use crate::export::{ExportError, Prefix};
 use crate::features::core::CoreSet;
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
+use crate::numeric::source::Source;
 use std::path::{Path, PathBuf};
 
 /// Moments of a core that is asked for by name: mean and spread need two.
@@ -79,8 +80,7 @@ pub fn chain_name(mlp: &Mlp, language: CoreLanguage) -> String {
 pub fn chain(mlp: &Mlp, language: CoreLanguage, prefix: Option<&Prefix>) -> Result<String, ExportError> {
     let set = set_of(mlp);
     let network = source(mlp, language.format(), None)?;
-    let language_of_network = language.format().language().expect("the format of a shader");
-    let text = network + &calls(mlp, language, CoreBinding::DEFAULT) + resolve(language_of_network);
+    let text = network + &calls(mlp, language, CoreBinding::DEFAULT);
     let text = match language {
         CoreLanguage::Wgsl => text,
         // A second inclusion is none.
@@ -96,18 +96,18 @@ pub fn chain(mlp: &Mlp, language: CoreLanguage, prefix: Option<&Prefix>) -> Resu
     })
 }
 
-/// What stands behind the export of a network that shares out the tail of a core: codes, insertion chain and weight.
+/// What stands behind the export of a network that shares out the tail of a core: codes, insertion chain, weight and
+/// `nmt_resolve`.
 ///
 /// # Panics
 /// If the network has no such core; see [`has_chain`].
 pub fn calls(mlp: &Mlp, language: CoreLanguage, place: CoreBinding) -> String {
     let set = set_of(mlp);
-    let insert = insert(language, place);
-    format!(
-        "\n{}\n{insert}{}",
-        codes(set, language),
-        weigh_by_network(set, language)
-    )
+    let (codes, insert) = (codes(set, language), insert(language, place));
+    let resolve = Source::new(language.dialect(), "nmt");
+    write_resolve(&resolve);
+    let weigh = weigh_by_network(set, language);
+    format!("\n{codes}\n{insert}{weigh}{}", resolve.into_text())
 }
 
 fn set_of(mlp: &Mlp) -> CoreSet {

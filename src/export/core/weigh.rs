@@ -20,7 +20,7 @@ use crate::numeric::source::{Dialect, Expression, Source, Type};
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
 impl CoreLanguage {
-    fn dialect(self) -> &'static dyn Dialect {
+    pub(super) fn dialect(self) -> &'static dyn Dialect {
         match self {
             Self::Wgsl => &Wgsl,
             Self::Glsl => &Glsl,
@@ -315,7 +315,7 @@ fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, 
     transmittance(q.front, q.tail, q.exact).named("known");
     source.statement("return known;");
     source.end_if();
-    let row = source.array("features", &q.features());
+    let row = source.numbers(&q.features());
     let answer = source.call(ENTRY, &[row]);
     source.return_value((-q.front).exp() * answer);
 }

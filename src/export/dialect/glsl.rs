@@ -1,27 +1,23 @@
 //! OpenGL's and Vulkan's language.
 
+use super::{Precision, ShadingLanguage, guarded, matrix, parameters, structure};
 use crate::numeric::source::{Dialect, Type};
 
 /// GLSL; 4.50 and ES 3.00 read it.
 #[derive(Debug, Clone, Copy)]
 pub struct Glsl;
 
-impl Glsl {
-    fn array_of(self, of: Type, items: &[String]) -> String {
-        format!("{}[{}]({})", self.type_name(of), items.len(), items.join(", "))
-    }
-}
-
 impl Dialect for Glsl {
     fn type_name(&self, of: Type) -> String {
         match of {
-            Type::Real | Type::Reals(_) => "float",
-            Type::Word | Type::Words(_) => "uint",
-            Type::Truth => "bool",
-            Type::Vec4 => "vec4",
-            Type::Word4 => "uvec4",
+            Type::Real | Type::Reals(1) => "float".to_owned(),
+            Type::Word => "uint".to_owned(),
+            Type::Truth => "bool".to_owned(),
+            Type::Vec4 => "vec4".to_owned(),
+            Type::Word4 => "uvec4".to_owned(),
+            Type::Reals(n @ 2..=4) => format!("vec{n}"),
+            Type::Reals(n) => matrix("mat", n),
         }
-        .to_owned()
     }
 
     fn let_(&self, of: Type, name: &str, value: &str) -> String {
@@ -40,26 +36,17 @@ impl Dialect for Glsl {
         format!("({condition} ? {yes} : {no})")
     }
 
-    fn head(&self, name: &str, parameters: &[(&str, Type)], result: Type) -> String {
-        let list: Vec<String> = parameters.iter().map(|&(name, of)| self.parameter(name, of)).collect();
-        let result = match result {
-            Type::Reals(n) | Type::Words(n) => format!("{}[{n}]", self.type_name(result)),
-            _ => self.type_name(result),
-        };
-        format!("{result} {name}({})", list.join(", "))
+    fn head(&self, name: &str, list: &[(&str, Type)], result: &str) -> String {
+        format!("{result} {name}({})", parameters(self, list))
     }
 
-    fn array(&self, of: Type, _: &str, items: &[String]) -> (Option<String>, String) {
-        (None, self.array_of(of, items))
+    fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {
+        structure(self, name, fields)
     }
 
-    fn return_array(&self, of: Type, items: &[String]) -> Vec<String> {
-        vec![format!("return {};", self.array_of(of, items))]
-    }
-
-    fn call_array(&self, of: Type, name: &str, function: &str, arguments: &[String]) -> Vec<String> {
-        let variable = self.parameter(name, of);
-        vec![format!("{variable} = {function}({});", arguments.join(", "))]
+    fn return_structure(&self, name: &str, values: &[(&str, String)]) -> Vec<String> {
+        let values: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
+        vec![format!("return {name}({});", values.join(", "))]
     }
 
     fn to_bits(&self, number: &str) -> String {
@@ -68,5 +55,45 @@ impl Dialect for Glsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("uintBitsToFloat({word})")
+    }
+}
+
+/// There is no f16: no compiler that could execute GLSL in f16 on the CPU reads it.
+impl ShadingLanguage for Glsl {
+    fn dialect(&self) -> &'static dyn Dialect {
+        &Self
+    }
+
+    fn literal(&self, x: f32) -> String {
+        format!("{x:?}")
+    }
+
+    fn scalar(&self, _: Precision) -> &'static str {
+        "float"
+    }
+
+    fn vec4(&self, _: Precision) -> String {
+        "vec4".to_owned()
+    }
+
+    fn mat4(&self, _: Precision) -> String {
+        "mat4".to_owned()
+    }
+
+    fn scalar_constant(&self, precision: Precision, name: &str, literal: &str) -> String {
+        format!("const {} {name} = {literal};\n", self.scalar(precision))
+    }
+
+    fn array_constant(&self, name: &str, element: &str, items: usize) -> [String; 2] {
+        [
+            format!("const {element} {name}[{items}] = {element}[{items}](\n"),
+            "\n);\n".to_owned(),
+        ]
+    }
+
+    /// GLSL ES has no default precision in fragment shaders.
+    fn file(&self, text: &str, _: Precision, guard: &str) -> String {
+        let precision = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n#endif\n\n";
+        guarded(&format!("{precision}{text}"), guard)
     }
 }

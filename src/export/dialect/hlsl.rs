@@ -1,22 +1,24 @@
 //! Direct3D's language.
 
+use super::{Precision, ShadingLanguage, guarded, matrix, parameters, structure};
 use crate::numeric::source::{Dialect, Type};
 
-/// HLSL, shader model 5 and later. A function that gives an array writes it to its last parameter, `out float
-/// result[n]`.
+/// HLSL, shader model 5 and later. More than four numbers are the rows of a matrix, where other languages have columns:
+/// `m[0]` is the first four of them in all.
 #[derive(Debug, Clone, Copy)]
 pub struct Hlsl;
 
 impl Dialect for Hlsl {
     fn type_name(&self, of: Type) -> String {
         match of {
-            Type::Real | Type::Reals(_) => "float",
-            Type::Word | Type::Words(_) => "uint",
-            Type::Truth => "bool",
-            Type::Vec4 => "float4",
-            Type::Word4 => "uint4",
+            Type::Real | Type::Reals(1) => "float".to_owned(),
+            Type::Word => "uint".to_owned(),
+            Type::Truth => "bool".to_owned(),
+            Type::Vec4 => "float4".to_owned(),
+            Type::Word4 => "uint4".to_owned(),
+            Type::Reals(n @ 2..=4) => format!("float{n}"),
+            Type::Reals(n) => matrix("float", n),
         }
-        .to_owned()
     }
 
     fn let_(&self, of: Type, name: &str, value: &str) -> String {
@@ -35,31 +37,19 @@ impl Dialect for Hlsl {
         format!("({condition} ? {yes} : {no})")
     }
 
-    fn head(&self, name: &str, parameters: &[(&str, Type)], result: Type) -> String {
-        let mut list: Vec<String> = parameters.iter().map(|&(name, of)| self.parameter(name, of)).collect();
-        let result = if matches!(result, Type::Reals(_) | Type::Words(_)) {
-            list.push(format!("out {}", self.parameter("result", result)));
-            "void".to_owned()
-        } else {
-            self.type_name(result)
-        };
-        format!("{result} {name}({})", list.join(", "))
+    fn head(&self, name: &str, list: &[(&str, Type)], result: &str) -> String {
+        format!("{result} {name}({})", parameters(self, list))
     }
 
-    fn array(&self, of: Type, name: &str, items: &[String]) -> (Option<String>, String) {
-        let statement = format!("{} = {{ {} }};", self.parameter(name, of), items.join(", "));
-        (Some(statement), name.to_owned())
+    fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {
+        structure(self, name, fields)
     }
 
-    fn return_array(&self, _: Type, items: &[String]) -> Vec<String> {
-        let assign = |(i, item): (usize, &String)| format!("result[{i}] = {item};");
-        items.iter().enumerate().map(assign).collect()
-    }
-
-    fn call_array(&self, of: Type, name: &str, function: &str, arguments: &[String]) -> Vec<String> {
-        let variable = self.parameter(name, of);
-        let arguments = [arguments, &[name.to_owned()]].concat();
-        vec![format!("{variable};"), format!("{function}({});", arguments.join(", "))]
+    fn return_structure(&self, name: &str, values: &[(&str, String)]) -> Vec<String> {
+        let mut statements = vec![format!("{name} result;")];
+        statements.extend(values.iter().map(|(name, value)| format!("result.{name} = {value};")));
+        statements.push("return result;".to_owned());
+        statements
     }
 
     fn to_bits(&self, number: &str) -> String {
@@ -68,5 +58,64 @@ impl Dialect for Hlsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("asfloat({word})")
+    }
+}
+
+impl ShadingLanguage for Hlsl {
+    fn dialect(&self) -> &'static dyn Dialect {
+        &Self
+    }
+
+    fn literal(&self, x: f32) -> String {
+        format!("{x:?}f")
+    }
+
+    fn scalar(&self, precision: Precision) -> &'static str {
+        match precision {
+            Precision::F32 => "float",
+            Precision::F16 => "half",
+        }
+    }
+
+    fn vec4(&self, precision: Precision) -> String {
+        format!("{}4", self.scalar(precision))
+    }
+
+    fn mat4(&self, precision: Precision) -> String {
+        format!("{}4x4", self.scalar(precision))
+    }
+
+    fn product(&self, block: &str, activations: &str) -> String {
+        format!("mul({activations}, {block})")
+    }
+
+    fn splat(&self, precision: Precision, literal: &str) -> String {
+        format!("{}({})", self.vec4(precision), [literal; 4].join(", "))
+    }
+
+    fn scalar_constant(&self, precision: Precision, name: &str, literal: &str) -> String {
+        format!("static const {} {name} = {literal};\n", self.scalar(precision))
+    }
+
+    fn array_constant(&self, name: &str, element: &str, items: usize) -> [String; 2] {
+        [
+            format!("static const {element} {name}[{items}] = {{\n"),
+            "\n};\n".to_owned(),
+        ]
+    }
+
+    fn notes(&self, precision: Precision) -> Vec<String> {
+        let mut notes = vec!["HLSL, shader model 5 and later.".to_owned()];
+        if precision == Precision::F16 {
+            notes.push(
+                "DXC: shader model 6.2 with -enable-16bit-types; without it half is float, which is only more precise."
+                    .to_owned(),
+            );
+        }
+        notes
+    }
+
+    fn file(&self, text: &str, _: Precision, guard: &str) -> String {
+        guarded(text, guard)
     }
 }

@@ -1,31 +1,23 @@
 //! WebGPU's language.
 
+use super::{Precision, ShadingLanguage, matrix};
 use crate::numeric::source::{Dialect, Type};
 
 /// WGSL.
 #[derive(Debug, Clone, Copy)]
 pub struct Wgsl;
 
-impl Wgsl {
-    /// A type with its number of items.
-    fn whole_type(self, of: Type) -> String {
-        match of {
-            Type::Reals(n) | Type::Words(n) => format!("array<{}, {n}>", self.type_name(of)),
-            _ => self.type_name(of),
-        }
-    }
-}
-
 impl Dialect for Wgsl {
     fn type_name(&self, of: Type) -> String {
         match of {
-            Type::Real | Type::Reals(_) => "f32",
-            Type::Word | Type::Words(_) => "u32",
-            Type::Truth => "bool",
-            Type::Vec4 => "vec4<f32>",
-            Type::Word4 => "vec4<u32>",
+            Type::Real | Type::Reals(1) => "f32".to_owned(),
+            Type::Word => "u32".to_owned(),
+            Type::Truth => "bool".to_owned(),
+            Type::Vec4 => "vec4<f32>".to_owned(),
+            Type::Word4 => "vec4<u32>".to_owned(),
+            Type::Reals(n @ 2..=4) => format!("vec{n}<f32>"),
+            Type::Reals(n) => matrix("mat", n) + "<f32>",
         }
-        .to_owned()
     }
 
     fn let_(&self, _: Type, name: &str, value: &str) -> String {
@@ -50,24 +42,24 @@ impl Dialect for Wgsl {
         format!("select({no}, {yes}, {})", turned.as_deref().unwrap_or(condition))
     }
 
-    fn head(&self, name: &str, parameters: &[(&str, Type)], result: Type) -> String {
+    fn head(&self, name: &str, parameters: &[(&str, Type)], result: &str) -> String {
         let list = parameters
             .iter()
-            .map(|&(name, of)| format!("{name}: {}", self.whole_type(of)));
-        let list = list.collect::<Vec<_>>().join(", ");
-        format!("fn {name}({list}) -> {}", self.whole_type(result))
+            .map(|&(name, of)| format!("{name}: {}", self.type_name(of)));
+        format!("fn {name}({}) -> {result}", list.collect::<Vec<_>>().join(", "))
     }
 
-    fn array(&self, of: Type, _: &str, items: &[String]) -> (Option<String>, String) {
-        (None, format!("{}({})", self.whole_type(of), items.join(", ")))
+    fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {
+        let fields: String = fields
+            .iter()
+            .map(|(about, name, of)| format!("{about}    {name}: {},\n", self.type_name(*of)))
+            .collect();
+        format!("struct {name} {{\n{fields}}}\n")
     }
 
-    fn return_array(&self, of: Type, items: &[String]) -> Vec<String> {
-        vec![format!("return {}({});", self.whole_type(of), items.join(", "))]
-    }
-
-    fn call_array(&self, _: Type, name: &str, function: &str, arguments: &[String]) -> Vec<String> {
-        vec![format!("let {name} = {function}({});", arguments.join(", "))]
+    fn return_structure(&self, name: &str, values: &[(&str, String)]) -> Vec<String> {
+        let values: Vec<&str> = values.iter().map(|(_, value)| value.as_str()).collect();
+        vec![format!("return {name}({});", values.join(", "))]
     }
 
     fn to_bits(&self, number: &str) -> String {
@@ -76,5 +68,52 @@ impl Dialect for Wgsl {
 
     fn bits_to_real(&self, word: &str) -> String {
         format!("bitcast<f32>({word})")
+    }
+}
+
+impl ShadingLanguage for Wgsl {
+    fn dialect(&self) -> &'static dyn Dialect {
+        &Self
+    }
+
+    fn literal(&self, x: f32) -> String {
+        format!("{x:?}f")
+    }
+
+    fn scalar(&self, precision: Precision) -> &'static str {
+        match precision {
+            Precision::F32 => "f32",
+            Precision::F16 => "f16",
+        }
+    }
+
+    fn vec4(&self, precision: Precision) -> String {
+        format!("vec4<{}>", self.scalar(precision))
+    }
+
+    fn mat4(&self, precision: Precision) -> String {
+        format!("mat4x4<{}>", self.scalar(precision))
+    }
+
+    fn bind(&self, _: &str, name: &str, value: &str) -> String {
+        format!("    let {name} = {value};\n")
+    }
+
+    fn scalar_constant(&self, precision: Precision, name: &str, literal: &str) -> String {
+        format!("const {name}: {} = {literal};\n", self.scalar(precision))
+    }
+
+    fn array_constant(&self, name: &str, element: &str, items: usize) -> [String; 2] {
+        [
+            format!("const {name} = array<{element}, {items}>(\n"),
+            "\n);\n".to_owned(),
+        ]
+    }
+
+    fn file(&self, text: &str, precision: Precision, _: &str) -> String {
+        match precision {
+            Precision::F32 => text.to_owned(),
+            Precision::F16 => format!("enable f16;\n\n{text}"),
+        }
     }
 }

@@ -168,54 +168,26 @@ fn write_features<const M: usize>(source: &Source) {
         .map(|name| source.real(name))
         .chain(source.reals::<M>("tail"))
         .collect();
-    source.return_array(&row);
+    source.return_numbers(&row);
 }
 
 /// 2 heavy fragments, 4 moments: 304 bits.
-pub const CORE_2_4: FeatureSpec = spec::<4>(
-    "core-2-4",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 4>(TAIL)))",
-    2,
-);
+pub const CORE_2_4: FeatureSpec = spec::<4>("core-2-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 2);
 
 /// 3 heavy fragments, 3 moments: 304 bits.
-pub const CORE_3_3: FeatureSpec = spec::<3>(
-    "core-3-3",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 3>(TAIL)))",
-    3,
-);
+pub const CORE_3_3: FeatureSpec = spec::<3>("core-3-3", "nmt_transmittance(nmt_features(HEAD, TAIL))", 3);
 
 /// 4 heavy fragments, 2 moments: 304 bits.
-pub const CORE_4_2: FeatureSpec = spec::<2>(
-    "core-4-2",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 2>(TAIL)))",
-    4,
-);
+pub const CORE_4_2: FeatureSpec = spec::<2>("core-4-2", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
 
 /// 4 heavy fragments, 4 moments: 368 bits.
-pub const CORE_4_4: FeatureSpec = spec::<4>(
-    "core-4-4",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 4>(TAIL)))",
-    4,
-);
+pub const CORE_4_4: FeatureSpec = spec::<4>("core-4-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
 
 /// 6 heavy fragments, 2 moments: 368 bits.
-pub const CORE_6_2: FeatureSpec = spec::<2>(
-    "core-6-2",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 2>(TAIL)))",
-    6,
-);
+pub const CORE_6_2: FeatureSpec = spec::<2>("core-6-2", "nmt_transmittance(nmt_features(HEAD, TAIL))", 6);
 
 /// 4 heavy fragments, 6 moments: 432 bits.
-pub const CORE_4_6: FeatureSpec = spec::<6>(
-    "core-4-6",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 6>(TAIL)))",
-    4,
-);
+pub const CORE_4_6: FeatureSpec = spec::<6>("core-4-6", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
 
 /// 6 heavy fragments, 4 moments: 432 bits.
-pub const CORE_6_4: FeatureSpec = spec::<4>(
-    "core-6-4",
-    "nmt_transmittance(nmt_features(HEAD, array<f32, 4>(TAIL)))",
-    6,
-);
+pub const CORE_6_4: FeatureSpec = spec::<4>("core-6-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 6);

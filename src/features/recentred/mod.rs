@@ -118,14 +118,13 @@ const fn spec<const K: usize>(name: &'static str, answer: &'static str) -> Featu
 }
 
 /// The feature set with four moments.
-pub const FOUR_MOMENTS: FeatureSpec = spec::<4>("recentred", "nmt_fragment_transmittance(HEAD, array<f32, 4>(TAIL))");
+pub const FOUR_MOMENTS: FeatureSpec = spec::<4>("recentred", "nmt_fragment_transmittance(HEAD, TAIL)");
 
 /// The feature set with six moments.
-pub const SIX_MOMENTS: FeatureSpec = spec::<6>("recentred-6", "nmt_fragment_transmittance(HEAD, array<f32, 6>(TAIL))");
+pub const SIX_MOMENTS: FeatureSpec = spec::<6>("recentred-6", "nmt_fragment_transmittance(HEAD, TAIL)");
 
 /// The feature set with eight moments.
-pub const EIGHT_MOMENTS: FeatureSpec =
-    spec::<8>("recentred-8", "nmt_fragment_transmittance(HEAD, array<f32, 8>(TAIL))");
+pub const EIGHT_MOMENTS: FeatureSpec = spec::<8>("recentred-8", "nmt_fragment_transmittance(HEAD, TAIL)");
 
 /// A pixel after pass 1.
 ///

@@ -118,7 +118,7 @@ pub fn write_features<const K: usize>(source: &Source) {
         .chain(rounded.columns(&description))
         .chain([known])
         .collect();
-    source.return_array(&row);
+    source.return_numbers(&row);
 }
 
 /// The functions that a renderer calls in pass 2, behind the network.
@@ -154,7 +154,7 @@ fn fragment_transmittance<const K: usize>(source: &Source) {
     source.begin_if(p.n.ne(c(4.0)));
     let first = rounded.first_columns(x);
     let row: Vec<_> = first.into_iter().chain(rounded.columns(&description)).collect();
-    let share = source.call(SHARE, &[source.array("features", &row)]);
+    let share = source.call(SHARE, &[source.numbers(&row)]);
     source.assign(front, absorbance * share);
     source.end_all_ifs();
     // However coarse the exponential, no answer is above 1.

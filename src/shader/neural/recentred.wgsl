@@ -9,7 +9,8 @@ fn oit_weight(f: OitFragment, p: OitPixel) -> f32 {
 }
 
 fn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {
-    return nmt_recentred(OIT_ARGUMENTS)[OIT_KNOWN];
+    let known = nmt_recentred(OIT_ARGUMENTS);
+    return OIT_RECENTRED;
 }
 
 fn oit_end_weight(f: OitFragment, p: OitPixel) -> f32 {

@@ -63,6 +63,20 @@ fn evaluate_compares_methods() {
     assert!(four["image_mse"].as_f64().unwrap() < average["image_mse"].as_f64().unwrap());
     assert!(average["transmittance_mse"].is_null() && four["scene"] == "g");
 
+    // The images as numbers have the error that is reported, to what f32 rounds; another method's have another.
+    evaluate("f", &["--float-images"]).success();
+    let image = |name: &str| {
+        let path = Path::new(&at.path("f")).join("g").join(name);
+        nmt::numeric::npy::read_npy::<f32>(&path).unwrap()
+    };
+    let (exact, found) = (image("truth.npy"), image("moment-power-4.npy"));
+    assert_eq!(exact.shape(), [30, 40, 3]);
+    let difference = found.mapv(f64::from) - exact.mapv(f64::from);
+    let mse = difference.mapv(|d| d * d).mean().unwrap();
+    let off = |of: &serde_json::Value| (mse / of["image_mse"].as_f64().unwrap() - 1.0).abs();
+    assert!(off(&four) < 1e-3 && off(&average) > 1e-3, "{mse}");
+    assert!(!Path::new(&at.path("e")).join("g/truth.npy").exists());
+
     evaluate("x", &["--background", "nan", "0", "0"])
         .code(2)
         .stderr(contains("background"));
