@@ -386,8 +386,8 @@ fn the_snippet_of_the_readme_compiles() {
     let export = String::from_utf8(nmt::export::encode(&network, nmt::export::Format::WGSL).unwrap()).unwrap();
     let around = |body: &str| {
         format!(
-            "{export}\nfn snippet(v: f32, alpha: f32, v0: f32, v1: f32, nearest: f32, farthest: f32, n: f32, b0: f32, \
-             b: array<f32, 4>) -> f32 {{\n{body}\nreturn T;\n}}\n"
+            "{export}\nfn snippet(v: f32, alpha: f32, v0: f32, v1: f32, sums0: vec4<f32>, sums1: vec4<f32>, \
+             range: vec4<f32>, weighted: vec4<f32>) -> f32 {{\n{body}\nreturn T + sums.range.x + over.a;\n}}\n"
         )
     };
     let compiles = |source: &str| {
@@ -398,5 +398,5 @@ fn the_snippet_of_the_readme_compiles() {
             .map_err(|e| e.emit_to_string(source))
     };
     compiles(&around(snippet)).unwrap();
-    assert!(compiles(&around(&snippet.replace("nmt_moment_depth", "nmt_depth"))).is_err());
+    assert!(compiles(&around(&snippet.replace("nmt_pass2", "nmt_pass3"))).is_err());
 }

@@ -117,6 +117,15 @@ test("WESL links networks by their names, two into one module, and Tint reads th
   await assert.rejects(wrong, "the control: a function that is not there");
 });
 
+/** Which pixels an edge goes through, rasterisers may see otherwise by a 256th of a pixel; here, by four of them. */
+const SLACK = 4 / 256;
+
+/** Twice the area of a triangle in the image, and the lengths of its edges with their sum. */
+function measures([[ax, ay], [bx, by], [cx, cy]]) {
+  const lengths = [Math.hypot(bx - ax, by - ay), Math.hypot(cx - bx, cy - by), Math.hypot(ax - cx, ay - cy)];
+  return [(bx - ax) * (cy - ay) - (by - ay) * (cx - ax), [...lengths, lengths[0] + lengths[1] + lengths[2]]];
+}
+
 /**
  * The image of the sample's scene by the over operator, row by row from the bottom, how many fragments a pixel has, and
  * whether it is clear what they are.
@@ -130,21 +139,20 @@ function sorted({ scene, matrix, background }, width, height, order) {
   const triangles = scene.map(({ corners, paint }) => {
     const q = corners.map(clip);
     const at = q.map((c) => [(c[0] / c[3] / 2 + 0.5) * width, (c[1] / c[3] / 2 + 0.5) * height, 1 / c[3]]);
-    return { at, paint };
+    const [area, lengths] = measures(at);
+    // What lies further off is neither inside nor near an edge.
+    const reach = 2 + (SLACK * lengths[3]) / Math.min(...lengths.slice(0, 3));
+    const box = [0, 1].map((k) => [Math.min(...at.map((p) => p[k])) - reach, Math.max(...at.map((p) => p[k])) + reach]);
+    return { at, paint, area, slack: (SLACK * lengths[3]) / Math.abs(area), box };
   });
   for (let y = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
       const [px, py] = [x + 0.5, y + 0.5];
       const hits = [];
-      for (const { at, paint } of triangles) {
+      for (const { at, paint, area, slack, box } of triangles) {
+        if (px < box[0][0] || px > box[0][1] || py < box[1][0] || py > box[1][1]) continue;
         const edge = (a, b) => (b[0] - a[0]) * (py - a[1]) - (b[1] - a[1]) * (px - a[0]);
-        const [[ax, ay], [bx, by], [cx, cy]] = at;
-        const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
         const parts = [edge(at[1], at[2]), edge(at[2], at[0]), edge(at[0], at[1])].map((e) => e / area);
-        // Which pixels an edge goes through, rasterisers may see otherwise by a 256th of a pixel.
-        const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
-        const edges = length(at[0], at[1]) + length(at[1], at[2]) + length(at[2], at[0]);
-        const slack = ((4 / 256) * edges) / Math.abs(area);
         const least = Math.min(...parts);
         if (Math.abs(least) < slack) clear[y * width + x] = 0;
         const inverse = parts.reduce((sum, part, i) => sum + part * at[i][2], 0);
