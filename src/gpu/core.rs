@@ -316,6 +316,9 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         );
     }
 
+    /// A fragment's transmittance of itself, its pixel's core, n, and b_0..b_4.
+    type Weigh<'a> = dyn Fn(Entry<f32>, &[Entry<f32>], f32, [f32; 5]) -> f32 + 'a;
+
     /// Runs both passes of a file in GLSL and HLSL, and compares slots and transmittances.
     fn both_passes(
         name: &str,
@@ -324,7 +327,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         offsets: &[u32],
         expected_slots: &[u32],
         text: &dyn Fn(CoreLanguage) -> String,
-        weigh: &dyn Fn(Entry<f32>, &[Entry<f32>], f32, [f32; 5]) -> f32,
+        weigh: &Weigh<'_>,
     ) {
         let plain = |language| without_atomics(&text(language), language).unwrap();
         let glsl = plain(CoreLanguage::Glsl);
@@ -385,12 +388,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
     }
 
     /// Transmittances by the CPU's formula in f32, sums in the order of the list.
-    fn expected_weights(
-        fragments: &Fragments,
-        offsets: &[u32],
-        slots: &[u32],
-        weigh: &dyn Fn(Entry<f32>, &[Entry<f32>], f32, [f32; 5]) -> f32,
-    ) -> Vec<f32> {
+    fn expected_weights(fragments: &Fragments, offsets: &[u32], slots: &[u32], weigh: &Weigh<'_>) -> Vec<f32> {
         let codes = SET.layout.codes(fragments.range.0, fragments.range.1);
         let entry = |f: CoreFragment| Entry {
             z: codes.moment_depth(f.depth_step),
