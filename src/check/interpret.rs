@@ -758,25 +758,7 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                 op: UnaryOperator::Negate,
                 expr,
             } => self.value(*expr)?.map(&|x| -x),
-            Expression::Binary { op, left, right } => {
-                let (a, b) = (self.value(*left)?, self.value(*right)?);
-                if let Some(value) = a.words_with(&b, *op).or_else(|| a.bools_with(&b, *op)) {
-                    return value;
-                }
-                match op {
-                    BinaryOperator::Add => a.zip(&b, &|a, b| a + b),
-                    BinaryOperator::Subtract => a.zip(&b, &|a, b| a - b),
-                    BinaryOperator::Multiply => a.multiply(&b, round),
-                    BinaryOperator::Divide => a.zip(&b, &|a, b| a / b),
-                    BinaryOperator::Less => a.compare(&b, |a, b| a < b),
-                    BinaryOperator::LessEqual => a.compare(&b, |a, b| a <= b),
-                    BinaryOperator::Greater => a.compare(&b, |a, b| a > b),
-                    BinaryOperator::GreaterEqual => a.compare(&b, |a, b| a >= b),
-                    BinaryOperator::Equal => a.compare(&b, |a, b| a == b),
-                    BinaryOperator::NotEqual => a.compare(&b, |a, b| a != b),
-                    other => unsupported(other),
-                }
-            }
+            Expression::Binary { op, left, right } => binary(*op, &self.value(*left)?, &self.value(*right)?, round),
             Expression::Unary {
                 op: UnaryOperator::LogicalNot,
                 expr,
@@ -784,28 +766,7 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                 Value::Bools(b) => Ok(Value::Bools(Arc::new(b.map(|b| !b)))),
                 _ => Err(InterpretError::Operands("!")),
             },
-            Expression::As { expr, kind, convert } => {
-                let value = self.value(*expr)?;
-                match (kind, convert, value.words()) {
-                    (naga::ScalarKind::Float, Some(2 | 4), None) => Ok(value),
-                    (naga::ScalarKind::Float, Some(4), Some(words)) => Ok(Value::each(|lane| words[lane] as f32)),
-                    (naga::ScalarKind::Float, None, Some(words)) => Ok(Value::each(|lane| f32::from_bits(words[lane]))),
-                    (naga::ScalarKind::Uint, Some(4), Some(_)) => Ok(value),
-                    (naga::ScalarKind::Uint, _, None) => {
-                        let mut words = [0; L];
-                        for (lane, word) in words.iter_mut().enumerate() {
-                            let x = value.lane(lane)?;
-                            *word = if convert.is_some() { x as u32 } else { x.to_bits() };
-                        }
-                        Ok(Value::Words(Arc::new(words)))
-                    }
-                    _ => unsupported(Expression::As {
-                        expr: *expr,
-                        kind: *kind,
-                        convert: *convert,
-                    }),
-                }
-            }
+            Expression::As { expr, kind, convert } => converted(self.value(*expr)?, *kind, *convert),
             Expression::Select {
                 condition,
                 accept,
@@ -817,32 +778,87 @@ impl<'a, const L: usize> Frame<'a, '_, L> {
                 let a = self.value(*arg)?;
                 let b = arg1.map(|b| self.value(b)).transpose()?;
                 let c = arg2.map(|c| self.value(c)).transpose()?;
-                match (fun, b, c) {
-                    (MathFunction::Max | MathFunction::Min, Some(b), None) if a.words().is_some() => {
-                        let (a, b) = (a.words(), b.words());
-                        let (Some(a), Some(b)) = (a, b) else {
-                            return Err(InterpretError::Operands("min or max"));
-                        };
-                        let greater = *fun == MathFunction::Max;
-                        let chosen = |l: usize| if greater { a[l].max(b[l]) } else { a[l].min(b[l]) };
-                        Ok(Value::Words(Arc::new(std::array::from_fn(chosen))))
-                    }
-                    (MathFunction::Exp, None, None) => a.map(&libm::expf),
-                    (MathFunction::Exp2, None, None) => a.map(&libm::exp2f),
-                    (MathFunction::Log2, None, None) => a.map(&libm::log2f),
-                    (MathFunction::Floor, None, None) => a.map(&f32::floor),
-                    (MathFunction::Log, None, None) => a.map(&libm::logf),
-                    (MathFunction::Abs, None, None) => a.map(&f32::abs),
-                    (MathFunction::Sqrt, None, None) => a.map(&f32::sqrt),
-                    (MathFunction::Max, Some(b), None) => a.zip(&b, &f32::max),
-                    (MathFunction::Min, Some(b), None) => a.zip(&b, &f32::min),
-                    (MathFunction::Dot, Some(b), None) => a.dot(&b, round),
-                    (MathFunction::Clamp, Some(b), Some(c)) => a.zip(&b, &f32::max)?.zip(&c, &f32::min),
-                    (other, ..) => unsupported(other),
-                }
+                math(*fun, &a, b.as_ref(), c.as_ref(), round)
             }
             other => unsupported(other),
         }
+    }
+}
+
+/// An operation on two values; `round` is applied within sums of products.
+fn binary<const L: usize>(
+    op: BinaryOperator,
+    a: &Value<L>,
+    b: &Value<L>,
+    round: &impl Fn(f32) -> f32,
+) -> Result<Value<L>> {
+    if let Some(value) = a.words_with(b, op).or_else(|| a.bools_with(b, op)) {
+        return value;
+    }
+    match op {
+        BinaryOperator::Add => a.zip(b, &|a, b| a + b),
+        BinaryOperator::Subtract => a.zip(b, &|a, b| a - b),
+        BinaryOperator::Multiply => a.multiply(b, round),
+        BinaryOperator::Divide => a.zip(b, &|a, b| a / b),
+        BinaryOperator::Less => a.compare(b, |a, b| a < b),
+        BinaryOperator::LessEqual => a.compare(b, |a, b| a <= b),
+        BinaryOperator::Greater => a.compare(b, |a, b| a > b),
+        BinaryOperator::GreaterEqual => a.compare(b, |a, b| a >= b),
+        BinaryOperator::Equal => a.compare(b, |a, b| a == b),
+        BinaryOperator::NotEqual => a.compare(b, |a, b| a != b),
+        other => unsupported(other),
+    }
+}
+
+/// A value as another kind of number; without a width its bits are taken.
+fn converted<const L: usize>(value: Value<L>, kind: naga::ScalarKind, convert: Option<u8>) -> Result<Value<L>> {
+    match (kind, convert, value.words()) {
+        (naga::ScalarKind::Float, Some(2 | 4), None) => Ok(value),
+        (naga::ScalarKind::Float, Some(4), Some(words)) => Ok(Value::each(|lane| words[lane] as f32)),
+        (naga::ScalarKind::Float, None, Some(words)) => Ok(Value::each(|lane| f32::from_bits(words[lane]))),
+        (naga::ScalarKind::Uint, Some(4), Some(_)) => Ok(value),
+        (naga::ScalarKind::Uint, _, None) => {
+            let mut words = [0; L];
+            for (lane, word) in words.iter_mut().enumerate() {
+                let x = value.lane(lane)?;
+                *word = if convert.is_some() { x as u32 } else { x.to_bits() };
+            }
+            Ok(Value::Words(Arc::new(words)))
+        }
+        _ => unsupported(format_args!("As")),
+    }
+}
+
+/// A function of the language; `round` is applied within sums of products.
+fn math<const L: usize>(
+    fun: MathFunction,
+    a: &Value<L>,
+    b: Option<&Value<L>>,
+    c: Option<&Value<L>>,
+    round: &impl Fn(f32) -> f32,
+) -> Result<Value<L>> {
+    match (fun, b, c) {
+        (MathFunction::Max | MathFunction::Min, Some(b), None) if a.words().is_some() => {
+            let (a, b) = (a.words(), b.words());
+            let (Some(a), Some(b)) = (a, b) else {
+                return Err(InterpretError::Operands("min or max"));
+            };
+            let greater = fun == MathFunction::Max;
+            let chosen = |l: usize| if greater { a[l].max(b[l]) } else { a[l].min(b[l]) };
+            Ok(Value::Words(Arc::new(std::array::from_fn(chosen))))
+        }
+        (MathFunction::Exp, None, None) => a.map(&libm::expf),
+        (MathFunction::Exp2, None, None) => a.map(&libm::exp2f),
+        (MathFunction::Log2, None, None) => a.map(&libm::log2f),
+        (MathFunction::Floor, None, None) => a.map(&f32::floor),
+        (MathFunction::Log, None, None) => a.map(&libm::logf),
+        (MathFunction::Abs, None, None) => a.map(&f32::abs),
+        (MathFunction::Sqrt, None, None) => a.map(&f32::sqrt),
+        (MathFunction::Max, Some(b), None) => a.zip(b, &f32::max),
+        (MathFunction::Min, Some(b), None) => a.zip(b, &f32::min),
+        (MathFunction::Dot, Some(b), None) => a.dot(b, round),
+        (MathFunction::Clamp, Some(b), Some(c)) => a.zip(b, &f32::max)?.zip(c, &f32::min),
+        (other, ..) => unsupported(other),
     }
 }
 

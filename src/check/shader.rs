@@ -94,79 +94,9 @@ pub(super) fn literals(text: &str) -> Result<Vec<f32>, String> {
 /// # Errors
 /// Names the constant and the place of the first difference.
 pub fn weights(format: Format, constants: &Constants, mlp: &Mlp) -> Result<(), String> {
-    let packed = format.form() == Form::Packed;
-    let numbers = |name: &str| {
-        let found = constants.iter().find(|(n, _)| n == name);
-        found
-            .map(|(_, numbers)| numbers.as_slice())
-            .ok_or_else(|| format!("there is no constant '{name}'"))
-    };
     let mut expected_names = Vec::new();
-    let last = mlp.layers().len() - 1;
-    for (index, dense) in mlp.layers().iter().enumerate() {
-        let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
-        let kept = |x: f32| {
-            if format.precision() == Precision::F16 && index < last {
-                round_f16_of_f32(x)
-            } else {
-                x
-            }
-        };
-        let weights = numbers(&weights_name)?;
-        let folded = packed && dense.inputs() % 4 != 0;
-        let biases = if folded { &[] } else { numbers(&biases_name)? };
-        // Where input i's weight to output o stands, and bias o.
-        let groups = dense.inputs().div_ceil(4);
-        let weight_at = |i: usize, o: usize| match packed {
-            false => i * dense.outputs() + o,
-            true if index == last => i,
-            true => ((o / 4) * groups + i / 4) * 16 + (i % 4) * 4 + o % 4,
-        };
-        let mut met = vec![false; weights.len()];
-        let mut compare = |name: &str, values: &[f32], at: usize, mark: bool, expected: f32| match values.get(at) {
-            Some(found) if found.to_bits() == kept(expected).to_bits() => {
-                if mark {
-                    met[at] = true;
-                }
-                Ok(())
-            }
-            Some(found) => Err(format!(
-                "{name}: number {at} is {found:?}, the network has {:?}",
-                kept(expected)
-            )),
-            None => Err(format!("{name} holds {} numbers, number {at} is needed", values.len())),
-        };
-        for o in 0..dense.outputs() {
-            for i in 0..dense.inputs() {
-                compare(&weights_name, weights, weight_at(i, o), true, dense.weight(i, o))?;
-            }
-            match folded {
-                true => compare(
-                    &weights_name,
-                    weights,
-                    weight_at(dense.inputs(), o),
-                    true,
-                    dense.biases[o],
-                )?,
-                false => compare(&biases_name, biases, o, false, dense.biases[o])?,
-            }
-        }
-        if let Some(at) = (0..weights.len()).find(|&at| !met[at] && weights[at] != 0.0) {
-            return Err(format!(
-                "{weights_name}: number {at} is {:?}, which is no weight of the network",
-                weights[at]
-            ));
-        }
-        if let Some(at) = (dense.outputs()..biases.len()).find(|&at| biases[at] != 0.0) {
-            return Err(format!(
-                "{biases_name}: number {at} is {:?}, which is no bias of the network",
-                biases[at]
-            ));
-        }
-        expected_names.push(weights_name);
-        if !folded {
-            expected_names.push(biases_name);
-        }
+    for index in 0..mlp.layers().len() {
+        expected_names.extend(layer(format, constants, mlp, index)?);
     }
     if let Some((name, _)) = constants.iter().find(|(name, _)| {
         name.starts_with(PREFIX) && !OTHERS.contains(&name.as_str()) && !expected_names.contains(name)
@@ -174,6 +104,80 @@ pub fn weights(format: Format, constants: &Constants, mlp: &Mlp) -> Result<(), S
         return Err(format!("constant '{name}' belongs to no layer of the network"));
     }
     Ok(())
+}
+
+/// Compares a layer, and names its constants.
+fn layer(format: Format, constants: &Constants, mlp: &Mlp, index: usize) -> Result<Vec<String>, String> {
+    let packed = format.form() == Form::Packed;
+    let numbers = |name: &str| {
+        let found = constants.iter().find(|(n, _)| n == name);
+        found
+            .map(|(_, numbers)| numbers.as_slice())
+            .ok_or_else(|| format!("there is no constant '{name}'"))
+    };
+    let (dense, last) = (&mlp.layers()[index], mlp.layers().len() - 1);
+    let (weights_name, biases_name) = (format!("NMT_W{}", index + 1), format!("NMT_B{}", index + 1));
+    let kept = |x: f32| {
+        if format.precision() == Precision::F16 && index < last {
+            round_f16_of_f32(x)
+        } else {
+            x
+        }
+    };
+    let weights = numbers(&weights_name)?;
+    let folded = packed && dense.inputs() % 4 != 0;
+    let biases = if folded { &[] } else { numbers(&biases_name)? };
+    // Where input i's weight to output o stands, and bias o.
+    let groups = dense.inputs().div_ceil(4);
+    let weight_at = |i: usize, o: usize| match packed {
+        false => i * dense.outputs() + o,
+        true if index == last => i,
+        true => ((o / 4) * groups + i / 4) * 16 + (i % 4) * 4 + o % 4,
+    };
+    let mut met = vec![false; weights.len()];
+    let mut compare = |name: &str, values: &[f32], at: usize, mark: bool, expected: f32| match values.get(at) {
+        Some(found) if found.to_bits() == kept(expected).to_bits() => {
+            if mark {
+                met[at] = true;
+            }
+            Ok(())
+        }
+        Some(found) => Err(format!(
+            "{name}: number {at} is {found:?}, the network has {:?}",
+            kept(expected)
+        )),
+        None => Err(format!("{name} holds {} numbers, number {at} is needed", values.len())),
+    };
+    for o in 0..dense.outputs() {
+        for i in 0..dense.inputs() {
+            compare(&weights_name, weights, weight_at(i, o), true, dense.weight(i, o))?;
+        }
+        match folded {
+            true => compare(
+                &weights_name,
+                weights,
+                weight_at(dense.inputs(), o),
+                true,
+                dense.biases[o],
+            )?,
+            false => compare(&biases_name, biases, o, false, dense.biases[o])?,
+        }
+    }
+    if let Some(at) = (0..weights.len()).find(|&at| !met[at] && weights[at] != 0.0) {
+        return Err(format!(
+            "{weights_name}: number {at} is {:?}, which is no weight of the network",
+            weights[at]
+        ));
+    }
+    if let Some(at) = (dense.outputs()..biases.len()).find(|&at| biases[at] != 0.0) {
+        return Err(format!(
+            "{biases_name}: number {at} is {:?}, which is no bias of the network",
+            biases[at]
+        ));
+    }
+    Ok(std::iter::once(weights_name)
+        .chain((!folded).then_some(biases_name))
+        .collect())
 }
 
 /// Checks that every index is a literal: shader compilers copy a constant array at each access with a run-time index.

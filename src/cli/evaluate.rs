@@ -5,6 +5,7 @@ mod frames;
 mod methods;
 mod shadows;
 mod tables;
+mod unfinished;
 
 use super::Verdict;
 use super::predict::SkipName;
@@ -16,6 +17,7 @@ use crate::evaluate::order::{fragment_orders, judge_in_orders};
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_floats, write_image, write_method};
 use crate::evaluate::{EvaluateError, Image, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
+use crate::model::{Mlp, shipped};
 use crate::numeric::file::{Replace, may_write, write_atomically};
 use crate::oit::neural::Skip;
 use crate::oit::{Context, Method};
@@ -25,16 +27,19 @@ use crate::shader::passes::TargetPrecision;
 use anyhow::bail;
 use clap::Args;
 use methods::Requested;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::HashSet;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
+use unfinished::Unfinished;
 
 #[derive(Args)]
 pub struct Evaluate {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes; "built-in"
     /// stands for all of those.
     #[arg(long, value_name = "F.npz|SCENE", required = true, value_delimiter = ',', num_args = 1..)]
-    fragments: Vec<String>,
+    fragments: Vec<OsString>,
     /// Methods, by name; "all" stands for every classic one, and without the option there are those that tell the
     /// story.
     #[arg(long, value_delimiter = ',', num_args = 1..)]
@@ -130,6 +135,7 @@ struct Session<'a> {
 }
 
 /// A method's numbers on a scene, on the CPU and where it was drawn there on the GPU.
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
 struct Row {
     cpu: MethodResult,
     gpu: Option<GpuResult>,
@@ -141,7 +147,9 @@ struct Row {
 /// What was found on a scene.
 struct SceneResults {
     name: String,
-    list: FragmentList,
+    pixels: usize,
+    fragments: usize,
+    depth_complexity: usize,
     /// Least error first.
     rows: Vec<Row>,
     /// Methods that could not be applied, and why; whether they were asked for by name.
@@ -150,31 +158,53 @@ struct SceneResults {
     remarks: String,
 }
 
+impl SceneResults {
+    /// Of a scene, before any method is applied.
+    fn new(name: &str, list: &FragmentList) -> Self {
+        Self {
+            name: name.to_owned(),
+            pixels: list.pixels(),
+            fragments: list.len(),
+            depth_complexity: list.depth_complexity(),
+            rows: Vec::new(),
+            refused: Vec::new(),
+            remarks: String::new(),
+        }
+    }
+}
+
 impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let session = self.session(ui)?;
+        let mut session = self.session(ui)?;
         let scenes = self.scenes();
-        if self.frames.is_some() {
-            for scene in &scenes {
-                moving_scene(scene)?;
-            }
-        }
+        let names = scene_names(&scenes);
         if self.shadows {
-            let named: Vec<(String, String)> = scenes.iter().cloned().zip(scene_names(&scenes)).collect();
+            let named: Vec<(OsString, String)> = scenes.into_iter().zip(names).collect();
             if session.shadows(&named)? {
                 bail!("a method could not be applied; see above");
             }
             return Ok(Verdict::Fine);
         }
+        let lists = session.lists(&scenes)?;
+        let unfinished;
+        (unfinished, session.replace) = Unfinished::begin(&self.out, &self.networks()?, session.replace)?;
         let mut results = Vec::new();
-        for (scene, name) in scenes.iter().zip(scene_names(&scenes)) {
-            let found = session.scene(scene, name)?;
+        for ((scene, name), list) in scenes.iter().zip(&names).zip(lists) {
+            let found = match unfinished.restore(name, &list) {
+                Some(found) => found,
+                None => {
+                    let found = session.scene(scene, name, &list)?;
+                    unfinished.keep(&found, &list)?;
+                    found
+                }
+            };
             if !ui.json() {
                 ui.print(&session.text(&found))?;
             }
             results.push(found);
         }
         session.finish(&results)?;
+        unfinished.end(&results)?;
         let refused = results
             .iter()
             .flat_map(|r| &r.refused)
@@ -183,6 +213,13 @@ impl Evaluate {
             bail!("a method that was asked for by name could not be applied; see above");
         }
         Ok(Verdict::Fine)
+    }
+
+    /// The networks among the methods.
+    fn networks(&self) -> anyhow::Result<Vec<Mlp>> {
+        let by_name = self.methods.iter().filter_map(|name| name.strip_prefix("neural:"));
+        let paths = self.model.iter().cloned().chain(by_name.map(PathBuf::from));
+        paths.map(|path| Ok(shipped::open(&path)?)).collect()
     }
 
     /// Everything that can be refused before a scene is rendered.
@@ -203,26 +240,37 @@ impl Evaluate {
         })
     }
 
-    fn scenes(&self) -> Vec<String> {
-        let all = || BUILT_IN.iter().map(|&name| name.to_owned()).collect();
-        let of = |name: &String| if name == "built-in" { all() } else { vec![name.clone()] };
+    fn scenes(&self) -> Vec<OsString> {
+        let all = || BUILT_IN.iter().map(OsString::from).collect();
+        let of = |name: &OsString| if name == "built-in" { all() } else { vec![name.clone()] };
         self.fragments.iter().flat_map(of).collect()
     }
 }
 
 impl Session<'_> {
+    /// The fragments of all scenes, so that whatever is wrong with the last is said before the first is judged.
+    fn lists(&self, scenes: &[OsString]) -> anyhow::Result<Vec<FragmentList>> {
+        let list = |scene: &OsString| {
+            if self.options.frames.is_some() {
+                moving_scene(scene)?;
+            }
+            let list = load(self.ui, scene, &self.options.options)?;
+            refuse_outside(&list, self.context.planes)?;
+            Ok(list)
+        };
+        scenes.iter().map(list).collect()
+    }
+
     /// Judges all methods on a scene and writes its pictures.
-    fn scene(&self, scene: &str, name: String) -> anyhow::Result<SceneResults> {
-        let list = load(self.ui, scene, &self.options.options)?;
-        refuse_outside(&list, self.context.planes)?;
-        let truth = Truth::new(&list, self.background);
+    fn scene(&self, scene: &OsStr, name: &str, list: &FragmentList) -> anyhow::Result<SceneResults> {
+        let truth = Truth::new(list, self.background);
         let mut remarks = String::new();
-        let mut sheet = self.sheet(&name, &truth, &mut remarks)?;
+        let mut sheet = self.sheet(name, &truth, &mut remarks)?;
         let progress = self.ui.progress("evaluate", self.methods.len() as u64);
         progress.set(0, format!("{name}: random orders"));
         let mut in_orders = self.judge_in_orders(scene, &truth)?;
         let tinted = match self.options.tint {
-            Some(strength) if truth.image().is_ok() => Some((Tinted::new(&list, strength, self.background)?, strength)),
+            Some(strength) if truth.image().is_ok() => Some((Tinted::new(list, strength, self.background)?, strength)),
             _ => None,
         };
         let mut refused = Vec::new();
@@ -245,11 +293,11 @@ impl Session<'_> {
                 }
             };
             let stem = free_stem(&method.name(), &mut stems);
-            write_method(&self.folder(&name), &stem, self.replace, &judged)?;
+            write_method(&self.folder(name), &stem, self.replace, &judged)?;
             if let Some((image, _)) = &judged.picture {
-                self.write_floats(&name, &stem, image)?;
+                self.write_floats(name, &stem, image)?;
             }
-            let drawn = self.draw(&name, &stem, &truth, requested, &judged, &mut remarks)?;
+            let drawn = self.draw(name, &stem, &truth, requested, &judged, &mut remarks)?;
             judged.result.picture = judged.picture.is_some().then_some(stem);
             if let Some(sheet) = &mut sheet {
                 sheet.add(&judged)?;
@@ -268,14 +316,13 @@ impl Session<'_> {
         self.add_changes(scene, &mut rows)?;
         rows.sort_by(|a, b| by_error(&a.cpu, &b.cpu));
         if let Some(sheet) = sheet.filter(|_| !rows.is_empty()) {
-            sheet.write(&self.folder(&name).join("sheet.png"), self.replace)?;
+            sheet.write(&self.folder(name).join("sheet.png"), self.replace)?;
         }
         Ok(SceneResults {
-            name,
-            list,
             rows,
             refused,
             remarks,
+            ..SceneResults::new(name, list)
         })
     }
 
@@ -314,7 +361,7 @@ impl Session<'_> {
     /// Results of the methods that are judged in random orders, in their order.
     fn judge_in_orders(
         &self,
-        scene: &str,
+        scene: &OsStr,
         truth: &Truth<'_>,
     ) -> anyhow::Result<impl Iterator<Item = Result<Judged, EvaluateError>> + use<>> {
         let methods = self.methods.iter().map(|r| &*r.method);
@@ -326,7 +373,7 @@ impl Session<'_> {
     /// Random orders of fragments, then of whole objects where the scene is rendered here.
     fn orders<'b>(
         &'b self,
-        scene: &'b str,
+        scene: &'b OsStr,
         list: &'b FragmentList,
     ) -> impl Iterator<Item = anyhow::Result<OrderedList>> + 'b {
         let objects = (1..=self.options.orders).filter_map(move |seed| {
@@ -386,8 +433,8 @@ impl Session<'_> {
         let heading = format!(
             "{}: {} fragments, at most {} in a pixel{}\n",
             found.name,
-            found.list.len(),
-            found.list.depth_complexity(),
+            found.fragments,
+            found.depth_complexity,
             self.moving(&found.rows)
         );
         let on_gpu = self.gpu.map_or_else(String::new, |gpu| {
@@ -464,20 +511,30 @@ fn free_stem(method: &str, taken: &mut HashSet<String>) -> String {
     free
 }
 
-/// A name for each scene: its file's stem, told apart by numbers where two have one.
-fn scene_names(fragments: &[String]) -> Vec<String> {
+/// A name for each scene: its file's stem; where two have one, as much of the paths before it as tells them apart; and
+/// numbers where one scene is named twice.
+fn scene_names(fragments: &[OsString]) -> Vec<String> {
+    // What a path ends with: of so many components, the last without its ending.
+    let suffix = |scene: &OsString, length: usize| {
+        let path = Path::new(scene).with_extension("");
+        let parts: Vec<_> = path.iter().map(OsStr::to_string_lossy).collect();
+        file_stem(&parts[parts.len().saturating_sub(length)..].join("-"))
+    };
+    let name = |scene: &OsString| {
+        let others = || fragments.iter().filter(|&other| other != scene);
+        let length = (1..Path::new(scene).iter().count().max(1))
+            .find(|&length| others().all(|other| suffix(other, length) != suffix(scene, length)))
+            .unwrap_or_else(|| Path::new(scene).iter().count());
+        suffix(scene, length)
+    };
     let mut names: Vec<String> = Vec::new();
     for scene in fragments {
-        let stem = Path::new(scene)
-            .file_stem()
-            .map_or_else(|| scene.clone(), |s| s.to_string_lossy().into_owned());
-        let stem = file_stem(&stem);
-        let free = (2..).map(|n| format!("{stem}-{n}")).find(|n| !names.contains(n));
-        names.push(if names.contains(&stem) {
-            free.expect("there are more numbers than scenes")
-        } else {
-            stem
-        });
+        let name = name(scene);
+        let numbered = (2..).map(|n| format!("{name}-{n}"));
+        let free = std::iter::once(name.clone())
+            .chain(numbered)
+            .find(|n| !names.contains(n));
+        names.push(free.expect("there are more numbers than scenes"));
     }
     names
 }
@@ -487,9 +544,9 @@ fn with_scene(row: &Row, scene: &SceneResults) -> Value {
     let mut value = serde_json::to_value(&row.cpu).expect("results are plain data");
     if let Some(object) = value.as_object_mut() {
         object.insert("scene".to_owned(), scene.name.clone().into());
-        object.insert("pixels".to_owned(), scene.list.pixels().into());
-        object.insert("fragments".to_owned(), scene.list.len().into());
-        object.insert("depth_complexity".to_owned(), scene.list.depth_complexity().into());
+        object.insert("pixels".to_owned(), scene.pixels.into());
+        object.insert("fragments".to_owned(), scene.fragments.into());
+        object.insert("depth_complexity".to_owned(), scene.depth_complexity.into());
         if let Some(tinted) = &row.tinted {
             object.insert("tinted".to_owned(), json!(tinted));
         }
@@ -509,7 +566,7 @@ mod tests {
 
     #[test]
     fn scenes_of_one_name_are_told_apart() {
-        let names = scene_names(&["a/x.npz", "b/x.npz", "smoke", "x"].map(str::to_owned));
-        assert_eq!(names, ["x", "x-2", "smoke", "x-3"]);
+        let names = scene_names(&["a/x.npz", "b/x.npz", "smoke", "x", "c/y.npz", "x"].map(OsString::from));
+        assert_eq!(names, ["a-x", "b-x", "smoke", "x", "y", "x-2"]);
     }
 }

@@ -9,6 +9,7 @@ use crate::infer::{Answered, Class, Skip, Tally};
 use crate::model::shipped;
 use crate::numeric::file::{Replace, may_write};
 use crate::numeric::npy::write_npy;
+use crate::numeric::tolerance::AbsoluteError;
 use crate::oit::Context;
 use crate::oit::neural::Neural;
 use crate::pixel::{CameraPlanes, FragmentList, abuffer};
@@ -133,26 +134,30 @@ impl Predict {
                 })],
             )?;
         } else {
-            let against = match list.is_empty() {
-                true => "nothing to compare".to_owned(),
-                false => format!(
-                    "against the A-buffer: T-MSE {:.3e}, worst error {:.3}",
-                    error.mse(),
-                    error.worst()
-                ),
-            };
-            ui.print(&format!(
-                "{} fragments in {} pixels (at most {} in one), {:.2} M fragments/s\n{}\n{against}\n{}\n",
-                list.len(),
-                list.pixels(),
-                list.depth_complexity(),
-                rate / 1e6,
-                summary(&tally),
-                self.out.display()
-            ))?;
+            let done = (rate, &error, summary(&tally));
+            ui.print(&format!("{}{}\n", text(&list, done), self.out.display()))?;
         }
         Ok(Verdict::Fine)
     }
+}
+
+/// What a person reads: the list, how fast it was, how far off, and which fragments needed the network.
+fn text(list: &FragmentList, (rate, error, classes): (f64, &AbsoluteError, String)) -> String {
+    let against = match list.is_empty() {
+        true => "nothing to compare".to_owned(),
+        false => format!(
+            "against the A-buffer: T-MSE {:.3e}, worst error {:.3}",
+            error.mse(),
+            error.worst()
+        ),
+    };
+    format!(
+        "{} fragments in {} pixels (at most {} in one), {:.2} M fragments/s\n{classes}\n{against}\n",
+        list.len(),
+        list.pixels(),
+        list.depth_complexity(),
+        rate / 1e6,
+    )
 }
 
 /// Says how far the promise of `--skip visible` scales with colours beyond 1.

@@ -17,13 +17,14 @@ use crate::profile::{
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::json;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct Profile {
     /// Scene: a fragment list (.npz), a deep image (.exr), a scene file (.toml) or the name of a built-in scene.
     #[arg(long, value_name = "F.npz|SCENE")]
-    fragments: String,
+    fragments: OsString,
     /// Networks to look into; those that come with the program without it.
     #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1..)]
     model: Vec<PathBuf>,
@@ -143,9 +144,10 @@ impl Profile {
         progress.finish();
         let name = Path::new(&self.fragments)
             .file_stem()
-            .map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
+            .unwrap_or(&self.fragments)
+            .to_string_lossy();
         let result = json!({
-            "scene": self.fragments, "facts": facts, "networks": networks, "skipping": skips,
+            "scene": self.fragments.to_string_lossy(), "facts": facts, "networks": networks, "skipping": skips,
                 "skipping_of": timed.name(), "recommendation": recommendation,
             "remarks": remarks,
         });
@@ -209,8 +211,8 @@ impl Profile {
             ui.print_json(
                 "profile",
                 vec![json!({
-                    "scene": self.fragments, "specialised": out, "from": model, "target_error": made.target_error,
-                        "target_error_held_out": made.target_held_out,
+                    "scene": self.fragments.to_string_lossy(), "specialised": out, "from": model,
+                        "target_error": made.target_error, "target_error_held_out": made.target_held_out,
                     "network_size": plan.size, "kept": chosen.kept, "before": made.before, "after": chosen,
                         "errors_before": made.errors_before, "errors_after": made.errors_after,
                     "attempts": made.attempts, "training_rows": made.rows[0], "held_out_rows": made.rows[1],
@@ -241,8 +243,8 @@ impl Profile {
             ui.print_json(
                 "profile",
                 vec![
-                    json!({ "scene": self.fragments, "simplified": out, "from": model, "network": left.shape(),
-                    "report": report }),
+                    json!({ "scene": self.fragments.to_string_lossy(), "simplified": out, "from": model,
+                        "network": left.shape(), "report": report }),
                 ],
             )?;
         } else {

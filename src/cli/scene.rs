@@ -112,13 +112,23 @@ fn is_built_in(name: &OsStr) -> bool {
 }
 
 /// A scene whose camera can move.
-pub fn moving_scene(name: &str) -> anyhow::Result<SceneFile> {
-    if is_list(OsStr::new(name)) {
+pub fn moving_scene(name: &OsStr) -> anyhow::Result<SceneFile> {
+    if is_list(name) {
         bail!(
-            "{name}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene"
+            "{}: --frames moves the camera, and a fragment list has none; pass the scene file or a built-in scene",
+            Path::new(name).display()
         );
     }
-    Ok(scene::open(name)?)
+    Ok(open(name)?)
+}
+
+/// A scene by its name, or of a file, whose name need not be UTF-8.
+pub fn open(name: &OsStr) -> Result<SceneFile, SceneError> {
+    let path = Path::new(name);
+    match name.to_str() {
+        Some(name) => scene::open(name),
+        None => SceneFile::of_file(path).map_or_else(|| SceneFile::read(path), Ok),
+    }
 }
 
 /// The fragments of a scene by its name, or of a file; what is left out or makes no sense is said.
@@ -137,13 +147,7 @@ pub fn load(ui: &Ui, name: &(impl AsRef<OsStr> + ?Sized), options: &SceneOptions
     if options.part.is_some() {
         bail!("{}: --part is for deep images (.exr)", path.display());
     }
-    let scene = match name.to_str() {
-        Some(name) => scene::open(name)?,
-        None => match SceneFile::of_file(path) {
-            Some(scene) => scene,
-            None => SceneFile::read(path)?,
-        },
-    };
+    let scene = open(name)?;
     let (list, camera) = scene::build_with_camera(&scene, &options.for_scene())?;
     if scene.camera.is_none() && !is_built_in(name) {
         ui.warn(&placed(path, &camera));
@@ -196,12 +200,12 @@ fn placed(path: &Path, camera: &Camera) -> String {
 }
 
 /// The fragments of a scene, its objects drawn in a random order; none of a list, whose objects are not known.
-pub fn load_in_random_order(name: &str, options: &SceneOptions, seed: u64) -> anyhow::Result<Option<FragmentList>> {
-    if is_list(name.as_ref()) {
+pub fn load_in_random_order(name: &OsStr, options: &SceneOptions, seed: u64) -> anyhow::Result<Option<FragmentList>> {
+    if is_list(name) {
         return Ok(None);
     }
     let options = options.for_scene();
-    Ok(Some(scene::build_in_random_order(&scene::open(name)?, &options, seed)?))
+    Ok(Some(scene::build_in_random_order(&open(name)?, &options, seed)?))
 }
 
 impl Scene {

@@ -294,37 +294,7 @@ pub fn build_from_lists(
     config: &DatasetConfig,
 ) -> Result<Dataset, DatasetError> {
     config.validate()?;
-    let mut pixels: Vec<(u32, u32)> = Vec::new();
-    for (index, (_, list)) in lists.iter().enumerate() {
-        pixels.extend(
-            (0..list.pixels())
-                .filter(|&p| !list.range(p).is_empty())
-                .map(|p| (index as u32, p as u32)),
-        );
-    }
-    pixels.shuffle(&mut stream(seed, SPLIT_PURPOSE, 0));
-    let mut rest = pixels.as_slice();
-    let mut take = |pairs: u64| {
-        let mut taken = 0;
-        let mut end = 0;
-        while taken < pairs {
-            let &(list, p) = rest.get(end)?;
-            taken += lists[list as usize].1.range(p as usize).len() as u64;
-            end += 1;
-        }
-        let (head, tail) = rest.split_at(end);
-        rest = tail;
-        let mut chosen = head.to_vec();
-        chosen.sort_unstable();
-        Some(chosen)
-    };
-    let (Some(validation), Some(training)) = (take(config.validation_pairs), take(config.training_pairs)) else {
-        let found = lists.iter().map(|(_, list)| list.len() as u64).sum();
-        return Err(DatasetError::TooFew {
-            found,
-            needed: config.training_pairs + config.validation_pairs,
-        });
-    };
+    let [validation, training] = split(seed, lists, config)?;
     let mut extractors = Vec::with_capacity(lists.len());
     for &(name, list) in lists {
         let in_list = |source| DatasetError::ListDepth {
@@ -371,6 +341,46 @@ pub fn build_from_lists(
         rows,
         [training.len(), validation.len()],
     ))
+}
+
+/// Pixels drawn at random for validation and for training, by list and place, each set in order.
+fn split(
+    seed: u64,
+    lists: &[(&str, &FragmentList)],
+    config: &DatasetConfig,
+) -> Result<[Vec<(u32, u32)>; 2], DatasetError> {
+    let mut pixels: Vec<(u32, u32)> = Vec::new();
+    for (index, (_, list)) in lists.iter().enumerate() {
+        pixels.extend(
+            (0..list.pixels())
+                .filter(|&p| !list.range(p).is_empty())
+                .map(|p| (index as u32, p as u32)),
+        );
+    }
+    pixels.shuffle(&mut stream(seed, SPLIT_PURPOSE, 0));
+    let mut rest = pixels.as_slice();
+    let mut take = |pairs: u64| {
+        let mut taken = 0;
+        let mut end = 0;
+        while taken < pairs {
+            let &(list, p) = rest.get(end)?;
+            taken += lists[list as usize].1.range(p as usize).len() as u64;
+            end += 1;
+        }
+        let (head, tail) = rest.split_at(end);
+        rest = tail;
+        let mut chosen = head.to_vec();
+        chosen.sort_unstable();
+        Some(chosen)
+    };
+    let (Some(validation), Some(training)) = (take(config.validation_pairs), take(config.training_pairs)) else {
+        let found = lists.iter().map(|(_, list)| list.len() as u64).sum();
+        return Err(DatasetError::TooFew {
+            found,
+            needed: config.training_pairs + config.validation_pairs,
+        });
+    };
+    Ok([validation, training])
 }
 
 /// Some pixels of a list, in order, without colours.

@@ -66,25 +66,9 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
             let n = &networks[i];
             words.push(choice_in_words(n, error, target, keeping.is_some(), judged.len()));
             (bits, moments) = (n.bits_per_pixel, n.moments);
-            let best = n.stored.iter().min_by(|a, b| a.error.total_cmp(&b.error));
-            if let Some(s) = best {
-                if s.error <= target.max(error) {
-                    (storage, bits) = (s.storage, s.bits_per_pixel);
-                    words.push(format!(
-                        "Moments may be stored in 16 bits ({}): the error becomes {:.2e}, and a pixel takes {} bits \
-                            instead of {}.",
-                        name_of(s.storage),
-                        s.error,
-                        s.bits_per_pixel,
-                        n.bits_per_pixel
-                    ));
-                } else {
-                    words.push(format!(
-                        "Keep moments in f32: in 16 bits the error would be {:.2e} at best ({}).",
-                        s.error,
-                        name_of(s.storage)
-                    ));
-                }
+            if let Some((stored, text)) = storage_in_words(n, target.max(error)) {
+                (storage, bits) = stored.unwrap_or((storage, bits));
+                words.push(text);
             }
             per_fragment = evaluated.map(|share| share * n.multiply_adds as f64);
             words.push(format!(
@@ -121,6 +105,27 @@ pub fn recommend(facts: &Facts, networks: &[Networked], target_error: Option<f64
         words,
         config: config(facts, features, &hidden_sizes, storage),
     }
+}
+
+/// Whether moments may be stored in 16 bits within an error, as which and in how many bits a pixel then, and a sentence
+/// on it; none where no such storage was tried.
+fn storage_in_words(n: &Networked, error: f64) -> Option<(Option<(SumPrecision, u32)>, String)> {
+    let best = n.stored.iter().min_by(|a, b| a.error.total_cmp(&b.error))?;
+    let name = name_of(best.storage);
+    Some(if best.error <= error {
+        let text = format!(
+            "Moments may be stored in 16 bits ({name}): the error becomes {:.2e}, and a pixel takes {} bits instead of \
+                {}.",
+            best.error, best.bits_per_pixel, n.bits_per_pixel
+        );
+        (Some((best.storage, best.bits_per_pixel)), text)
+    } else {
+        let text = format!(
+            "Keep moments in f32: in 16 bits the error would be {:.2e} at best ({name}).",
+            best.error
+        );
+        (None, text)
+    })
 }
 
 /// Shares of the fragments that the network answers, under `exact` and under `visible`.

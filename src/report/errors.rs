@@ -87,14 +87,11 @@ pub(super) fn flip_text(x: f64) -> String {
 
 /// Charts of errors by fragments in a pixel and by alpha; none where no file has the numbers.
 pub fn curves(scenes: &[Scene]) -> Option<String> {
-    let scenes: Vec<&Scene> = scenes
-        .iter()
-        .filter(|s| {
-            s.methods
-                .iter()
-                .any(|m| !m.by_count.is_empty() || !m.by_alpha.is_empty())
-        })
-        .collect();
+    let binned = |m: &Method| !m.by_count.is_empty() || !m.by_alpha.is_empty();
+    let scenes: Vec<&Scene> = scenes.iter().filter(|s| s.methods.iter().any(binned)).collect();
+    if scenes.is_empty() {
+        return None;
+    }
     let all: Vec<Scene> = scenes
         .iter()
         .map(|s| Scene {
@@ -103,113 +100,9 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
         })
         .collect();
     let names = chosen(&all, COLORS);
-    if scenes.is_empty() {
-        return None;
-    }
     let mut out = String::new();
     for (i, scene) in scenes.iter().enumerate() {
-        let mut html = String::new();
-        let kinds: [(&str, &str, Pick, Value, Text); 3] = [
-            (
-                "T-MSE",
-                "fragments in the pixel",
-                |m| &m.by_count,
-                |b| b.t_mse,
-                count_text,
-            ),
-            (
-                "image MSE",
-                "fragments in the pixel",
-                |m| &m.by_count,
-                |b| b.image_mse,
-                count_text,
-            ),
-            (
-                "T-MSE",
-                "alpha of the fragment",
-                |m| &m.by_alpha,
-                |b| b.t_mse,
-                alpha_text,
-            ),
-        ];
-        let mut tables = String::new();
-        html += "<div class=\"plots\">";
-        for (error, along, pick, value, text) in kinds {
-            let bins = all_bins(scene, pick, value);
-            if bins.is_empty() {
-                continue;
-            }
-            let caption = format!("{}: {error} against {along}", scene.label);
-            let labels: Vec<String> = bins.iter().map(|&ends| text(ends)).collect();
-            let mut series = Vec::new();
-            for (color, name) in names.iter().enumerate() {
-                let Some(method) = scene.methods.iter().find(|m| m.name == *name) else {
-                    continue;
-                };
-                let points: Vec<Point> = bins
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(x, ends)| {
-                        let bin = pick(method).iter().find(|b| same(b.ends, *ends))?;
-                        let y = value(bin)?;
-                        let count = bin
-                            .fragments
-                            .map_or(String::new(), |n| format!(", {} fragments", thousands(n as i64)));
-                        Some(Point {
-                            x: x as f64,
-                            y,
-                            spread: None,
-                            title: format!("{name}, {}: {error} {}{count}", labels[x], number(y)),
-                        })
-                    })
-                    .collect();
-                if points.iter().any(|p| p.y.is_finite()) {
-                    series.push(Series {
-                        name: name.clone(),
-                        points,
-                        mark: Mark::LineAndPoints,
-                        color,
-                    });
-                }
-            }
-            let chart = Chart {
-                summary: format!(
-                    "{caption}; {} methods. The numbers stand in the table below.",
-                    series.len()
-                ),
-                x: Axis {
-                    label: along.to_owned(),
-                    scale: Scale::Names(labels.clone()),
-                },
-                y: Axis {
-                    label: error.to_owned(),
-                    scale: Scale::Log { decades: 7 },
-                },
-                series,
-            };
-            html += &chart::figure(&chart, &caption).unwrap_or_default();
-            let head: Vec<&str> = std::iter::once("method")
-                .chain(labels.iter().map(String::as_str))
-                .collect();
-            let mut table = Table::new(&format!("{caption}, all methods"), &head);
-            for method in &scene.methods {
-                let cell =
-                    |ends: &(f64, f64)| Cell::number(pick(method).iter().find(|b| same(b.ends, *ends)).and_then(value));
-                if bins
-                    .iter()
-                    .any(|ends| pick(method).iter().any(|b| same(b.ends, *ends) && value(b).is_some()))
-                {
-                    table.row(
-                        std::iter::once(Cell::text(&method.name))
-                            .chain(bins.iter().map(cell))
-                            .collect(),
-                    );
-                }
-            }
-            tables += &table.html();
-        }
-        html += "</div>";
-        html += &details("All numbers", &tables);
+        let html = charts(scene, &names);
         out += &if i == 0 { html } else { details(&scene.label, &html) };
     }
     let total: std::collections::BTreeSet<&str> = scenes
@@ -223,6 +116,124 @@ pub fn curves(scenes: &[Scene]) -> Option<String> {
         names.len(),
         total.len()
     ))
+}
+
+/// An error against what it is grouped by.
+struct Curve {
+    error: &'static str,
+    along: &'static str,
+    pick: Pick,
+    value: Value,
+    text: Text,
+}
+
+const CURVES: [Curve; 3] = [
+    Curve {
+        error: "T-MSE",
+        along: "fragments in the pixel",
+        pick: |m| &m.by_count,
+        value: |b| b.t_mse,
+        text: count_text,
+    },
+    Curve {
+        error: "image MSE",
+        along: "fragments in the pixel",
+        pick: |m| &m.by_count,
+        value: |b| b.image_mse,
+        text: count_text,
+    },
+    Curve {
+        error: "T-MSE",
+        along: "alpha of the fragment",
+        pick: |m| &m.by_alpha,
+        value: |b| b.t_mse,
+        text: alpha_text,
+    },
+];
+
+/// The charts of a scene, and the tables of all their numbers.
+fn charts(scene: &Scene, names: &[String]) -> String {
+    let (mut plots, mut tables) = (String::new(), String::new());
+    for curve in &CURVES {
+        let bins = all_bins(scene, curve.pick, curve.value);
+        if bins.is_empty() {
+            continue;
+        }
+        let labels: Vec<String> = bins.iter().map(|&ends| (curve.text)(ends)).collect();
+        let caption = format!("{}: {} against {}", scene.label, curve.error, curve.along);
+        let series = curve.series(scene, names, &bins, &labels);
+        let chart = Chart {
+            summary: format!(
+                "{caption}; {} methods. The numbers stand in the table below.",
+                series.len()
+            ),
+            x: Axis {
+                label: curve.along.to_owned(),
+                scale: Scale::Names(labels.clone()),
+            },
+            y: Axis {
+                label: curve.error.to_owned(),
+                scale: Scale::Log { decades: 7 },
+            },
+            series,
+        };
+        plots += &chart::figure(&chart, &caption).unwrap_or_default();
+        tables += &curve.table(scene, &caption, &bins, &labels);
+    }
+    format!("<div class=\"plots\">{plots}</div>{}", details("All numbers", &tables))
+}
+
+impl Curve {
+    /// The methods of these names that have a finite error, each in its name's colour.
+    fn series(&self, scene: &Scene, names: &[String], bins: &[(f64, f64)], labels: &[String]) -> Vec<Series> {
+        let mut series = Vec::new();
+        for (color, name) in names.iter().enumerate() {
+            let Some(method) = scene.methods.iter().find(|m| m.name == *name) else {
+                continue;
+            };
+            let point = |(x, ends): (usize, &(f64, f64))| {
+                let bin = (self.pick)(method).iter().find(|b| same(b.ends, *ends))?;
+                let y = (self.value)(bin)?;
+                let count = bin
+                    .fragments
+                    .map_or(String::new(), |n| format!(", {} fragments", thousands(n as i64)));
+                Some(Point {
+                    x: x as f64,
+                    y,
+                    spread: None,
+                    title: format!("{name}, {}: {} {}{count}", labels[x], self.error, number(y)),
+                })
+            };
+            let points: Vec<Point> = bins.iter().enumerate().filter_map(point).collect();
+            if points.iter().any(|p| p.y.is_finite()) {
+                series.push(Series {
+                    name: name.clone(),
+                    points,
+                    mark: Mark::LineAndPoints,
+                    color,
+                });
+            }
+        }
+        series
+    }
+
+    /// The errors of all methods that have any.
+    fn table(&self, scene: &Scene, caption: &str, bins: &[(f64, f64)], labels: &[String]) -> String {
+        let labels = labels.iter().map(String::as_str);
+        let head: Vec<&str> = std::iter::once("method").chain(labels).collect();
+        let mut table = Table::new(&format!("{caption}, all methods"), &head);
+        for method in &scene.methods {
+            let of = |ends: &(f64, f64)| {
+                let bin = (self.pick)(method).iter().find(|b| same(b.ends, *ends));
+                bin.and_then(self.value)
+            };
+            if bins.iter().any(|ends| of(ends).is_some()) {
+                let cells = bins.iter().map(|ends| Cell::number(of(ends)));
+                table.row(std::iter::once(Cell::text(&method.name)).chain(cells).collect());
+            }
+        }
+        table.html()
+    }
 }
 
 type Pick = fn(&Method) -> &Vec<Bin>;

@@ -127,72 +127,7 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
     let images = images::section(&mut found, &scenes, options.most_picture_bytes);
     let (time, benchmarked) = time::section(&found, &scenes);
 
-    let section = |id, title, html, what, command| Section {
-        id,
-        title,
-        html,
-        missing: Missing { what, command },
-    };
-    let evaluate = "nmt evaluate --fragments SCENE --model MODEL.json --out DIR";
-    let sections = [
-        section("images", "Images", images.html, "images beside the exact one", evaluate),
-        section(
-            "errors",
-            "Errors",
-            (!scenes.is_empty()).then(|| errors::tables(&scenes)),
-            "errors of methods on scenes",
-            evaluate,
-        ),
-        section(
-            "time",
-            "Run time against error",
-            time,
-            "run time against error",
-            "nmt bench methods --fragments SCENE --out DIR",
-        ),
-        section(
-            "curves",
-            "Error against depth complexity and alpha",
-            errors::curves(&scenes),
-            "errors by depth complexity and alpha",
-            evaluate,
-        ),
-        section(
-            "training",
-            "Training",
-            training,
-            "networks and their training curves",
-            "nmt run CONFIG --out DIR",
-        ),
-        section(
-            "stress",
-            "Numerical stability",
-            stress::section(&found),
-            "numerical stability",
-            "nmt stress --model MODEL.json --out DIR",
-        ),
-        section(
-            "speed",
-            "Speed of training, inference and generation",
-            speed::section(&found),
-            "speed of training, inference and generation",
-            "nmt bench train --out DIR",
-        ),
-        section(
-            "profile",
-            "What scenes need",
-            profile::section(&found),
-            "what scenes need",
-            "nmt profile --fragments SCENE --out DIR",
-        ),
-        section(
-            "checks",
-            "Exports",
-            checks::section(&found),
-            "checks of exports",
-            "nmt check MODEL.json --exports EXPORTS --json > DIR/check.json",
-        ),
-    ];
+    let sections = sections(&found, &scenes, [images.html, time, training]);
     let mut missing: Vec<Missing> = sections
         .iter()
         .filter(|s| s.html.is_none())
@@ -226,6 +161,76 @@ pub fn build(folder: &Path, options: &Options) -> Result<Page, ReportError> {
         pictures_left_out: images.left_out,
         read: found.read,
     })
+}
+
+/// All sections in their order, and what each takes; some are made beforehand.
+fn sections(found: &Found, scenes: &[scenes::Scene], [images, time, training]: [Option<String>; 3]) -> [Section; 9] {
+    let section = |id, title, html, what, command| Section {
+        id,
+        title,
+        html,
+        missing: Missing { what, command },
+    };
+    let evaluate = "nmt evaluate --fragments SCENE --model MODEL.json --out DIR";
+    [
+        section("images", "Images", images, "images beside the exact one", evaluate),
+        section(
+            "errors",
+            "Errors",
+            (!scenes.is_empty()).then(|| errors::tables(scenes)),
+            "errors of methods on scenes",
+            evaluate,
+        ),
+        section(
+            "time",
+            "Run time against error",
+            time,
+            "run time against error",
+            "nmt bench methods --fragments SCENE --out DIR",
+        ),
+        section(
+            "curves",
+            "Error against depth complexity and alpha",
+            errors::curves(scenes),
+            "errors by depth complexity and alpha",
+            evaluate,
+        ),
+        section(
+            "training",
+            "Training",
+            training,
+            "networks and their training curves",
+            "nmt run CONFIG --out DIR",
+        ),
+        section(
+            "stress",
+            "Numerical stability",
+            stress::section(found),
+            "numerical stability",
+            "nmt stress --model MODEL.json --out DIR",
+        ),
+        section(
+            "speed",
+            "Speed of training, inference and generation",
+            speed::section(found),
+            "speed of training, inference and generation",
+            "nmt bench train --out DIR",
+        ),
+        section(
+            "profile",
+            "What scenes need",
+            profile::section(found),
+            "what scenes need",
+            "nmt profile --fragments SCENE --out DIR",
+        ),
+        section(
+            "checks",
+            "Exports",
+            checks::section(found),
+            "checks of exports",
+            "nmt check MODEL.json --exports EXPORTS --json > DIR/check.json",
+        ),
+    ]
 }
 
 /// Hash of a script as a content security policy names it.

@@ -39,8 +39,8 @@ pub const BUILT_IN: [&str; 9] = [
     "curtains",
 ];
 
-/// Most fragments of a rendered scene; with colour they take 20 bytes each, so 5 GiB.
-pub const MAX_FRAGMENTS: u64 = 1 << 28;
+/// Most fragments of a rendered scene; with colour they take 20 bytes each, so 20 GiB.
+pub const MAX_FRAGMENTS: u64 = 1 << 30;
 
 /// What a caller may change about a scene.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -104,6 +104,15 @@ pub enum SceneError {
     UnknownBuiltIn {
         /// The name.
         name: String,
+    },
+    /// The machine has no memory for the picture.
+    #[error(
+        "the scene has {fragments} fragments, 20 bytes each, and the machine has no memory for them, so lower the \
+            width and height or use fewer layers"
+    )]
+    OutOfMemory {
+        /// Number of fragments.
+        fragments: u64,
     },
     /// The picture would take too much memory.
     #[error(

@@ -428,46 +428,49 @@ fn foliage(out: &mut Builder, seed: u64) {
         out.geometry.end_object();
     }
     for i in 0..LEAVES {
-        let mut rng = random(seed, Purpose::Leaves, i);
-        let tip = boughs[i as usize % boughs.len()];
-        let around = direction(&mut rng);
-        let center = add(tip, scale(around, 0.62 * libm::cbrt(between(&mut rng, 0.02, 1.0))));
-        // Leaves face outward and up, each in its own way.
-        let normal = unit(add(add(around, [0.0, 0.8, 0.0]), scale(direction(&mut rng), 0.9)));
-        let along = unit(cross(normal, direction(&mut rng)));
-        let across = cross(normal, along);
-        let size = between(&mut rng, 0.055, 0.1);
-        let color = mix(
-            mix(
-                [0.10, 0.42, 0.10],
-                [0.45, 0.72, 0.16],
-                between(&mut rng, 0.0, 1.0) as f32,
-            ),
-            [0.9, 0.6, 0.1],
-            0.25 * libm::pow(between(&mut rng, 0.0, 1.0), 4.0) as f32,
+        leaf(
+            out,
+            boughs[i as usize % boughs.len()],
+            &mut random(seed, Purpose::Leaves, i),
         );
-        let alpha = between(&mut rng, 0.86, 0.985) as f32;
-        let paint = Paint { color, alpha, rim: 0.0 };
-        // Pointed at both ends and folded along the midrib.
-        let at = |x: f64, y: f64| {
-            add(
-                center,
-                add(
-                    add(scale(along, x * size), scale(across, y * size)),
-                    scale(normal, 0.35 * y.abs() * size),
-                ),
-            )
-        };
-        let outline = [(-0.55, 0.34), (0.1, 0.42), (0.65, 0.22)];
-        for side in [-1.0, 1.0] {
-            let rim: Vec<Vec3> = outline.iter().map(|&(x, y)| at(x, side * y)).collect();
-            let (base, end) = (at(-1.0, 0.0), at(1.15, 0.0));
-            out.flat([base, rim[0], rim[1]], paint);
-            out.flat([base, rim[1], end], paint);
-            out.flat([rim[1], rim[2], end], paint);
-        }
-        out.geometry.end_object();
     }
+}
+
+/// A leaf about the end of a bough.
+fn leaf(out: &mut Builder, tip: Vec3, rng: &mut Stream) {
+    let around = direction(rng);
+    let center = add(tip, scale(around, 0.62 * libm::cbrt(between(rng, 0.02, 1.0))));
+    // Leaves face outward and up, each in its own way.
+    let normal = unit(add(add(around, [0.0, 0.8, 0.0]), scale(direction(rng), 0.9)));
+    let along = unit(cross(normal, direction(rng)));
+    let across = cross(normal, along);
+    let size = between(rng, 0.055, 0.1);
+    let color = mix(
+        mix([0.10, 0.42, 0.10], [0.45, 0.72, 0.16], between(rng, 0.0, 1.0) as f32),
+        [0.9, 0.6, 0.1],
+        0.25 * libm::pow(between(rng, 0.0, 1.0), 4.0) as f32,
+    );
+    let alpha = between(rng, 0.86, 0.985) as f32;
+    let paint = Paint { color, alpha, rim: 0.0 };
+    // Pointed at both ends and folded along the midrib.
+    let at = |x: f64, y: f64| {
+        add(
+            center,
+            add(
+                add(scale(along, x * size), scale(across, y * size)),
+                scale(normal, 0.35 * y.abs() * size),
+            ),
+        )
+    };
+    let outline = [(-0.55, 0.34), (0.1, 0.42), (0.65, 0.22)];
+    for side in [-1.0, 1.0] {
+        let rim: Vec<Vec3> = outline.iter().map(|&(x, y)| at(x, side * y)).collect();
+        let (base, end) = (at(-1.0, 0.0), at(1.15, 0.0));
+        out.flat([base, rim[0], rim[1]], paint);
+        out.flat([base, rim[1], end], paint);
+        out.flat([rim[1], rim[2], end], paint);
+    }
+    out.geometry.end_object();
 }
 
 /// A quaternion w, x, y, z that turns the axes x, y, z into three orthonormal directions of the right hand.
@@ -500,13 +503,70 @@ fn normal(rng: &mut Stream) -> f64 {
     radius * libm::cos(between(rng, 0.0, TAU))
 }
 
+/// A splat that lies in a surface: wider along it than across, its opacity that of a sigmoid.
+fn flat(rng: &mut Stream, at: Vec3, across: Vec3, color: [f32; 3], size: f64) -> Splat {
+    let along = unit(cross(across, direction(rng)));
+    let off = add(at, scale(direction(rng), 0.3 * size * normal(rng)));
+    let width = size * libm::exp(0.5 * normal(rng));
+    let shade = 1.0 + 0.12 * normal(rng) as f32;
+    let opacity = 1.0 / (1.0 + libm::exp(0.7 - 1.6 * normal(rng)));
+    let [r, g, b] = color.map(|c| (c * shade).clamp(0.0, 1.0));
+    Splat {
+        position: off.map(|x| x as f32),
+        scale: [width, width * between(rng, 0.3, 0.9), 0.12 * width].map(|x| x as f32),
+        rotation: turn([along, cross(across, along), across]),
+        rgba: [r, g, b, opacity as f32],
+    }
+}
+
+/// A leaf of the plant, in splats.
+fn leaf_of_splats(all: &mut Vec<Splat>, seed: u64, leaf: u64) {
+    const LEAF: u64 = 330;
+    let mut shape = random(seed, Purpose::Splats, (2 << 32) + leaf);
+    let angle = 2.399_963_2 * leaf as f64;
+    let rise = between(&mut shape, 0.35, 1.25);
+    let length = between(&mut shape, 0.7, 1.25);
+    let width = between(&mut shape, 0.1, 0.17);
+    let young = between(&mut shape, 0.0, 1.0) as f32;
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    // Up out of the pot, over, and down again under its weight.
+    let rib = |t: f64| {
+        let reach = length * t * (0.55 + 0.35 * t);
+        [
+            reach * cos,
+            0.62 + 1.7 * rise * t - 1.15 * rise * t * t * t,
+            reach * sin,
+        ]
+    };
+    for i in 0..LEAF {
+        let mut rng = random(seed, Purpose::Splats, (3 << 32) + leaf * LEAF + i);
+        let t = between(&mut rng, 0.02, 1.0);
+        let side = between(&mut rng, -1.0, 1.0);
+        let along = unit(sub(rib(t + 1e-3), rib(t)));
+        let flank = unit([-sin, 0.25 * side, cos]);
+        let half = width * libm::sin(PI * t.powf(0.75)).max(0.05);
+        let at = add(
+            rib(t),
+            add(scale(flank, side * half), [0.0, 0.3 * half * side.abs(), 0.0]),
+        );
+        let across = unit(cross(along, flank));
+        let lamp = (0.45 + 0.55 * dot(across, unit([-0.45, 0.75, 0.5])).abs()) as f32;
+        let vein = (1.0 - 6.0 * side.abs()).max(0.0) as f32;
+        let color = mix(
+            mix([0.05, 0.27, 0.09], [0.42, 0.62, 0.2], young),
+            [0.75, 0.8, 0.5],
+            0.6 * vein,
+        );
+        all.push(flat(&mut rng, at, across, color.map(|c| c * lamp), 0.032));
+    }
+}
+
 /// A plant in a pot on a table, as a capture gives it: flat Gaussians along the surfaces, most of them faint, and a
 /// haze of large ones that stands for what no camera saw well.
 fn splats(out: &mut Builder, seed: u64) {
     const TABLE: u64 = 5000;
     const POT: u64 = 9000;
     const LEAVES: u64 = 70;
-    const LEAF: u64 = 330;
     const HAZE: u64 = 900;
     // Radius and height of the pot's outline.
     const OUTLINE: [[f64; 2]; 6] = [
@@ -517,21 +577,6 @@ fn splats(out: &mut Builder, seed: u64) {
         [0.55, 0.7],
         [0.44, 0.66],
     ];
-    /// A splat that lies in a surface: wider along it than across, its opacity that of a sigmoid.
-    fn flat(rng: &mut Stream, at: Vec3, across: Vec3, color: [f32; 3], size: f64) -> Splat {
-        let along = unit(cross(across, direction(rng)));
-        let off = add(at, scale(direction(rng), 0.3 * size * normal(rng)));
-        let width = size * libm::exp(0.5 * normal(rng));
-        let shade = 1.0 + 0.12 * normal(rng) as f32;
-        let opacity = 1.0 / (1.0 + libm::exp(0.7 - 1.6 * normal(rng)));
-        let [r, g, b] = color.map(|c| (c * shade).clamp(0.0, 1.0));
-        Splat {
-            position: off.map(|x| x as f32),
-            scale: [width, width * between(rng, 0.3, 0.9), 0.12 * width].map(|x| x as f32),
-            rotation: turn([along, cross(across, along), across]),
-            rgba: [r, g, b, opacity as f32],
-        }
-    }
     let all = &mut out.geometry.splats;
     for i in 0..TABLE {
         let mut rng = random(seed, Purpose::Splats, i);
@@ -553,43 +598,7 @@ fn splats(out: &mut Builder, seed: u64) {
         all.push(flat(&mut rng, [r * cos, y, r * sin], across, color, 0.03));
     }
     for leaf in 0..LEAVES {
-        let mut shape = random(seed, Purpose::Splats, (2 << 32) + leaf);
-        let angle = 2.399_963_2 * leaf as f64;
-        let rise = between(&mut shape, 0.35, 1.25);
-        let length = between(&mut shape, 0.7, 1.25);
-        let width = between(&mut shape, 0.1, 0.17);
-        let young = between(&mut shape, 0.0, 1.0) as f32;
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        // Up out of the pot, over, and down again under its weight.
-        let rib = |t: f64| {
-            let reach = length * t * (0.55 + 0.35 * t);
-            [
-                reach * cos,
-                0.62 + 1.7 * rise * t - 1.15 * rise * t * t * t,
-                reach * sin,
-            ]
-        };
-        for i in 0..LEAF {
-            let mut rng = random(seed, Purpose::Splats, (3 << 32) + leaf * LEAF + i);
-            let t = between(&mut rng, 0.02, 1.0);
-            let side = between(&mut rng, -1.0, 1.0);
-            let along = unit(sub(rib(t + 1e-3), rib(t)));
-            let flank = unit([-sin, 0.25 * side, cos]);
-            let half = width * libm::sin(PI * t.powf(0.75)).max(0.05);
-            let at = add(
-                rib(t),
-                add(scale(flank, side * half), [0.0, 0.3 * half * side.abs(), 0.0]),
-            );
-            let across = unit(cross(along, flank));
-            let lamp = (0.45 + 0.55 * dot(across, unit([-0.45, 0.75, 0.5])).abs()) as f32;
-            let vein = (1.0 - 6.0 * side.abs()).max(0.0) as f32;
-            let color = mix(
-                mix([0.05, 0.27, 0.09], [0.42, 0.62, 0.2], young),
-                [0.75, 0.8, 0.5],
-                0.6 * vein,
-            );
-            all.push(flat(&mut rng, at, across, color.map(|c| c * lamp), 0.032));
-        }
+        leaf_of_splats(all, seed, leaf);
     }
     for i in 0..HAZE {
         let mut rng = random(seed, Purpose::Splats, (4 << 32) + i);

@@ -16,6 +16,7 @@ use crate::numeric::rng::stream;
 use crate::pixel::FragmentList;
 use rand::RngExt;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Corner of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -172,39 +173,10 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
     let screen = Screen::new(geometry, view);
     let (width, height) = (view.width as usize, view.height as usize);
     let bins = Bins::new(&screen, height);
-    let any_opaque = screen.triangles.iter().any(|t| t.opaque);
     let far = view.planes.far();
     let counted: Vec<(Vec<u32>, Vec<f32>)> = (0..bins.bands())
         .into_par_iter()
-        .map(|band| {
-            let rows = band * BAND..((band + 1) * BAND).min(height);
-            let mut nearest = if any_opaque {
-                vec![far; rows.len() * width]
-            } else {
-                Vec::new()
-            };
-            if any_opaque {
-                let opaque = bins
-                    .of(band)
-                    .iter()
-                    .filter_map(|&i| screen.triangles.get(i as usize))
-                    .filter(|t| t.opaque);
-                for t in opaque {
-                    t.draw(screen.materials, width, &rows, |p, z, rgba| {
-                        if rgba[3] >= 1.0 {
-                            nearest[p] = nearest[p].min(z);
-                        }
-                    });
-                }
-            }
-            let mut counts = vec![0u32; rows.len() * width];
-            for &i in bins.of(band) {
-                screen.count(i, width, &rows, |p, z| {
-                    counts[p] += u32::from(z <= limit(&nearest, p, far))
-                });
-            }
-            (counts, nearest)
-        })
+        .map(|band| count_band(&screen, bins.of(band), rows_of(band, height), width, far))
         .collect();
 
     let total: u64 = counted
@@ -226,9 +198,9 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
             last
         }));
     }
-    let mut view_z = vec![0.0f32; total as usize];
-    let mut alpha = vec![0.0f32; total as usize];
-    let mut color = vec![[0.0f32; 3]; total as usize];
+    let mut view_z: Vec<f32> = zeros(total)?;
+    let mut alpha: Vec<f32> = zeros(total)?;
+    let mut color: Vec<[f32; 3]> = zeros(total)?;
     let mut jobs = Vec::with_capacity(counted.len());
     let mut rest = (view_z.as_mut_slice(), alpha.as_mut_slice(), color.as_mut_slice());
     for (band, (counts, nearest)) in counted.into_iter().enumerate() {
@@ -241,7 +213,6 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
     }
     jobs.into_par_iter()
         .for_each(|(band, counts, nearest, z_out, a_out, c_out)| {
-            let rows = band * BAND..((band + 1) * BAND).min(height);
             let mut next = Vec::with_capacity(counts.len());
             let mut at = 0usize;
             for &c in &counts {
@@ -249,7 +220,7 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
                 at += c as usize;
             }
             for &i in bins.of(band) {
-                screen.draw(i, width, &rows, |p, z, rgba| {
+                screen.draw(i, width, &rows_of(band, height), |p, z, rgba| {
                     if z <= limit(&nearest, p, far) {
                         let at = next[p];
                         z_out[at] = z;
@@ -269,6 +240,53 @@ pub(super) fn rasterise(geometry: &Geometry, view: &View) -> Result<FragmentList
         .with_size(view.width, view.height)
         .map_err(content)?
         .with_planes(view.planes))
+}
+
+/// The rows of a band.
+fn rows_of(band: usize, height: usize) -> Range<usize> {
+    band * BAND..((band + 1) * BAND).min(height)
+}
+
+/// Number of fragments of each pixel of a band, and the depth of its nearest opaque one; no depths where nothing is
+/// opaque.
+fn count_band(
+    screen: &Screen<'_>,
+    primitives: &[u32],
+    rows: Range<usize>,
+    width: usize,
+    far: f32,
+) -> (Vec<u32>, Vec<f32>) {
+    let mut nearest = Vec::new();
+    if screen.triangles.iter().any(|t| t.opaque) {
+        nearest.resize(rows.len() * width, far);
+        let triangles = primitives.iter().filter_map(|&i| screen.triangles.get(i as usize));
+        for t in triangles.filter(|t| t.opaque) {
+            t.draw(screen.materials, width, &rows, |p, z, rgba| {
+                if rgba[3] >= 1.0 {
+                    nearest[p] = nearest[p].min(z);
+                }
+            });
+        }
+    }
+    let mut counts = vec![0u32; rows.len() * width];
+    for &i in primitives {
+        screen.count(i, width, &rows, |p, z| {
+            counts[p] += u32::from(z <= limit(&nearest, p, far))
+        });
+    }
+    (counts, nearest)
+}
+
+/// An array of zeros for so many fragments.
+///
+/// # Errors
+/// [`SceneError::OutOfMemory`].
+fn zeros<T: Default + Clone>(fragments: u64) -> Result<Vec<T>, SceneError> {
+    let mut array = Vec::new();
+    let reserved = array.try_reserve_exact(fragments as usize);
+    reserved.map_err(|_| SceneError::OutOfMemory { fragments })?;
+    array.resize(fragments as usize, T::default());
+    Ok(array)
 }
 
 /// View depth beyond which a fragment of a pixel is not seen.

@@ -20,13 +20,14 @@ use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use std::collections::HashSet;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub struct BenchMethods {
     /// Scene: a fragment list (.npz), deep image (.exr), scene file (.toml) or the name of a built-in scene.
     #[arg(long, value_name = "F.npz|SCENE")]
-    fragments: String,
+    fragments: OsString,
     /// Methods, by name; "shaders" stands for every classic one that runs on the GPU, "all" for every classic one.
     #[arg(long, value_delimiter = ',', num_args = 1.., default_value = "shaders")]
     methods: Vec<String>,
@@ -138,7 +139,9 @@ impl BenchMethods {
 
         let scene = Path::new(&self.fragments)
             .file_stem()
-            .map_or_else(|| self.fragments.clone(), |s| s.to_string_lossy().into_owned());
+            .unwrap_or(&self.fragments)
+            .to_string_lossy()
+            .into_owned();
         let mut results: Vec<Value> = Vec::new();
         for (_, table) in &tables {
             results.extend(table.costs.iter().map(|c| {

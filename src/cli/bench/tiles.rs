@@ -14,6 +14,7 @@ use crate::oit::neural::Skip;
 use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -21,7 +22,7 @@ pub struct BenchTiles {
     /// Scenes: fragment lists (.npz), deep images (.exr), scene files (.toml) or names of built-in scenes.
     #[arg(long, value_name = "F.npz|SCENE", value_delimiter = ',', num_args = 1.., default_values = ["teapots",
         "foliage", "hair"])]
-    fragments: Vec<String>,
+    fragments: Vec<OsString>,
     /// Networks.
     #[arg(long, value_name = "MODEL.json", value_delimiter = ',', num_args = 1.., required = true)]
     model: Vec<PathBuf>,
@@ -51,13 +52,17 @@ impl BenchTiles {
         let gpu = Gpu::shared()?;
         let progress = ui.progress("bench", (self.fragments.len() * methods.len() * self.repeat) as u64);
         let mut done = 0;
-        let mut results: Vec<(&str, Frames)> = Vec::new();
+        let mut results: Vec<(String, Frames)> = Vec::new();
         for scene in &self.fragments {
             let list = load(ui, scene, &self.options)?;
+            let scene = scene.to_string_lossy().into_owned();
             for method in &methods {
                 let range = method.depth_range(&list, None, None)?;
                 let told = |n| progress.set(done + n, format!("{scene}, {}", method.name));
-                results.push((scene, frames(gpu, &list, method, range, &skips, self.repeat, &told)?));
+                results.push((
+                    scene.clone(),
+                    frames(gpu, &list, method, range, &skips, self.repeat, &told)?,
+                ));
                 done += self.repeat as u64;
             }
         }
@@ -84,7 +89,7 @@ fn sample_json(scene: &str, frames: &Frames, s: &FrameSamples) -> Value {
     })
 }
 
-fn text(gpu: &Gpu, results: &[(&str, Frames)], repeat: usize) -> String {
+fn text(gpu: &Gpu, results: &[(String, Frames)], repeat: usize) -> String {
     let head = [
         "scene",
         "method",

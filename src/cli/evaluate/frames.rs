@@ -5,6 +5,7 @@ use crate::cli::scene::moving_scene;
 use crate::evaluate::{OverTime, over_time};
 use crate::oit::Method;
 use crate::scene::CameraPath;
+use std::ffi::OsStr;
 
 /// An angle that turns a camera.
 pub fn turn(text: &str) -> Result<f64, String> {
@@ -26,7 +27,7 @@ impl Evaluate {
 
 impl Session<'_> {
     /// Adds to each row how its method changes from frame to frame, as the camera moves about the scene.
-    pub(super) fn add_changes(&self, scene: &str, rows: &mut [Row]) -> anyhow::Result<()> {
+    pub(super) fn add_changes(&self, scene: &OsStr, rows: &mut [Row]) -> anyhow::Result<()> {
         let Some(path) = self.options.path() else { return Ok(()) };
         let applied: Vec<&dyn Method> = self
             .methods
@@ -44,12 +45,17 @@ impl Session<'_> {
         Ok(())
     }
 
-    fn changes(&self, name: &str, path: CameraPath, methods: &[&dyn Method]) -> anyhow::Result<Vec<Option<OverTime>>> {
+    fn changes(
+        &self,
+        name: &OsStr,
+        path: CameraPath,
+        methods: &[&dyn Method],
+    ) -> anyhow::Result<Vec<Option<OverTime>>> {
         let scene = moving_scene(name)?;
         let options = self.options.options.for_scene();
         let progress = self.ui.progress("frames", path.frames.into());
         let frame = |i: u32| {
-            progress.set(i.into(), name);
+            progress.set(i.into(), name.to_string_lossy());
             Ok::<_, anyhow::Error>(path.build(&scene, &options, i)?)
         };
         let changes = over_time::measure(path.frames, frame, methods, self.context, self.background)?;

@@ -1,14 +1,15 @@
 //! `nmt evaluate --shadows`
 
 use super::{RESULTS, Requested, Session};
+use crate::cli::scene::open;
 use crate::cli::ui::table;
 use crate::evaluate::Image;
 use crate::evaluate::picture::{file_stem, write_image};
 use crate::evaluate::shadow::{Filter, ShadowJudged, judge};
 use crate::numeric::file::write_atomically;
-use crate::scene;
 use crate::scene::shadow::{ShadowOptions, Shadowed};
 use serde_json::{Value, json};
+use std::ffi::OsString;
 
 /// Methods that a shadow is told by where none is named: moments with both overestimations, and the technique that they
 /// replaced.
@@ -29,11 +30,11 @@ const MAP_SIZE: u32 = 512;
 
 impl Session<'_> {
     /// Shadows of every scene, by every method, unfiltered and under the filter.
-    pub(super) fn shadows(&self, scenes: &[(String, String)]) -> anyhow::Result<bool> {
+    pub(super) fn shadows(&self, scenes: &[(OsString, String)]) -> anyhow::Result<bool> {
         let mut results = Vec::new();
         let mut refused = false;
         for (scene, name) in scenes {
-            let opened = scene::open(scene)?;
+            let opened = open(scene)?;
             let asked = ShadowOptions {
                 map_size: MAP_SIZE,
                 on_surfaces: self.options.shadow_points as usize,

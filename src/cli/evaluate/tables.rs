@@ -314,11 +314,8 @@ mod tests {
             "multi-layer-alpha:1",
         ];
         SceneResults {
-            name: name.to_owned(),
             rows: rows.map(row).into_iter().collect(),
-            list,
-            refused: vec![],
-            remarks: String::new(),
+            ..SceneResults::new(name, &list)
         }
     }
 

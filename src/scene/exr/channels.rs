@@ -47,6 +47,39 @@ fn role(base: &str) -> Option<Role> {
     })
 }
 
+impl Used {
+    /// Names what is not used, and what is but not as it stands.
+    fn name_others(&self, channels: &[(String, Kind)], place: &str, left_out: &mut Vec<LeftOut>) {
+        let mut used: Vec<usize> = vec![self.z];
+        match self.alpha {
+            Alpha::One(a) => used.push(a),
+            Alpha::PerColor(a) => {
+                used.extend(a);
+                let what = "opacity for each colour (AR, AG, AB)";
+                note(
+                    left_out,
+                    LeftOut::new(
+                        what,
+                        place,
+                        1,
+                        "opacity is their mean; what each sample adds to the image is kept",
+                    ),
+                );
+            }
+        }
+        used.extend(self.color.into_iter().flatten().chain(self.z_back));
+        let others: Vec<&str> = (0..channels.len())
+            .filter(|i| !used.contains(i))
+            .map(|i| channels[i].0.as_str())
+            .collect();
+        if !others.is_empty() {
+            let what = format!("channels {}", others.join(", "));
+            let remedy = "read are Z, ZBack, A and R, G, B, of one layer where there are several";
+            note(left_out, LeftOut::new(what, place, others.len() as u64, remedy));
+        }
+    }
+}
+
 /// Finds the channels. Those without a layer's name come first, then the layer that has what is missing; what is used
 /// of several layers need not be one's.
 ///
@@ -105,33 +138,7 @@ pub(super) fn used(
         color,
         z_back,
     };
-    let mut used: Vec<usize> = vec![z];
-    match alpha {
-        Alpha::One(a) => used.push(a),
-        Alpha::PerColor(a) => {
-            used.extend(a);
-            let what = "opacity for each colour (AR, AG, AB)";
-            note(
-                left_out,
-                LeftOut::new(
-                    what,
-                    place,
-                    1,
-                    "opacity is their mean; what each sample adds to the image is kept",
-                ),
-            );
-        }
-    }
-    used.extend(color.into_iter().flatten().chain(z_back));
-    let others: Vec<&str> = (0..channels.len())
-        .filter(|i| !used.contains(i))
-        .map(|i| channels[i].0.as_str())
-        .collect();
-    if !others.is_empty() {
-        let what = format!("channels {}", others.join(", "));
-        let remedy = "read are Z, ZBack, A and R, G, B, of one layer where there are several";
-        note(left_out, LeftOut::new(what, place, others.len() as u64, remedy));
-    }
+    found.name_others(channels, place, left_out);
     Ok(found)
 }
 

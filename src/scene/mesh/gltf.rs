@@ -11,6 +11,7 @@ use crate::scene::texture::{Image, Texture, TexturedMaterial, UNMOVED, Wrap};
 use gltf::Semantic;
 use gltf::accessor::{DataType, Dimensions};
 use gltf::material::AlphaMode;
+use gltf::mesh::Mode;
 use serde_json::Value;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -51,6 +52,10 @@ const HARMLESS: [&str; 27] = [
 const HARMLESS_VENDORS: [&str; 10] = [
     "ADOBE_", "AGI_", "CESIUM_", "FB_", "GOOGLE_", "MPEG_", "NV_", "VRM", "MOZ_", "OMI_",
 ];
+
+/// What to do about opacity that alphaMode OPAQUE makes nothing of.
+const UNDER_OPAQUE: &str =
+    "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the scene file";
 
 /// Extensions of materials that make them let light through in ways other than alpha.
 const OF_GLASS: [&str; 4] = [
@@ -133,110 +138,97 @@ fn check_required(path: &Path, json: &Value) -> Result<(), SceneError> {
 fn document(path: &Path, json: &Value) -> Result<gltf::Document, SceneError> {
     let wrong = |e: String| SceneError::file_content(path, "glTF", e);
     let mut used = json.clone();
-    let has_views = !list(json, "bufferViews").is_empty();
-    if let Some(root) = used.as_object_mut() {
-        for name in [
-            "extensionsRequired",
-            "extensionsUsed",
-            "extensions",
-            "animations",
-            "cameras",
-            "skins",
-            "extras",
-        ] {
-            root.remove(name);
-        }
-        for (field, unread) in [
-            ("nodes", &["skin", "camera", "weights", "extensions", "extras"][..]),
-            (
-                "materials",
-                &[
-                    "extensions",
-                    "extras",
-                    "normalTexture",
-                    "occlusionTexture",
-                    "emissiveTexture",
-                    "emissiveFactor",
-                ],
-            ),
-            ("textures", &["extensions", "extras"]),
-            ("meshes", &["weights", "extensions", "extras"]),
-            ("images", &["extensions", "extras"]),
-            ("bufferViews", &["extensions", "extras", "target"]),
-            ("buffers", &["extensions", "extras"]),
-            ("accessors", &["extensions", "extras"]),
-        ] {
-            for object in root.get_mut(field).and_then(Value::as_array_mut).into_iter().flatten() {
-                for name in unread {
-                    object.as_object_mut().map(|o| o.remove(*name));
-                }
-            }
-        }
-        for mesh in root
-            .get_mut("meshes")
-            .and_then(Value::as_array_mut)
-            .into_iter()
-            .flatten()
-        {
-            for primitive in mesh
-                .get_mut("primitives")
-                .and_then(Value::as_array_mut)
-                .into_iter()
-                .flatten()
-            {
-                if let Some(primitive) = primitive.as_object_mut() {
-                    ["targets", "extensions", "extras"]
-                        .iter()
-                        .for_each(|name| drop(primitive.remove(*name)));
-                    if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
-                        attributes.retain(|name, _| {
-                            ["POSITION", "COLOR_0"].contains(&name.as_str()) || name.starts_with("TEXCOORD_")
-                        });
-                    }
-                }
-            }
-        }
-        for accessor in root
-            .get_mut("accessors")
-            .and_then(Value::as_array_mut)
-            .into_iter()
-            .flatten()
-        {
-            // The library demands bounds of positions and a buffer view, neither of which the format does. Where there
-            // is no view, none is looked at.
-            if let Some(accessor) = accessor.as_object_mut() {
-                if has_views && accessor.get("sparse").is_none() {
-                    accessor.entry("bufferView").or_insert_with(|| 0.into());
-                }
-                for bound in ["min", "max"] {
-                    accessor.insert(bound.to_owned(), Value::Array(vec![0.into(), 0.into(), 0.into()]));
-                }
-            }
-        }
-    }
+    remove_unread(&mut used);
+    complete_accessors(&mut used, !list(json, "bufferViews").is_empty());
     let root: gltf::json::Root = serde_json::from_value(used).map_err(|e| wrong(e.to_string()))?;
     // The library's own validation looks positions up without asking whether they are there.
     for (m, mesh) in root.meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
-            if let Some(accessor) = primitive
-                .attributes
-                .values()
-                .find(|a| a.value() >= root.accessors.len())
-            {
-                let reason = format!(
-                    "an attribute names accessor {} of {}",
-                    accessor.value(),
-                    root.accessors.len()
-                );
-                return Err(SceneError::file_content(
-                    path,
-                    &format!("meshes[{m}].primitives[{p}]"),
-                    reason,
-                ));
+            let mut accessors = primitive.attributes.values().map(|a| a.value());
+            if let Some(accessor) = accessors.find(|&a| a >= root.accessors.len()) {
+                let reason = format!("an attribute names accessor {accessor} of {}", root.accessors.len());
+                let place = format!("meshes[{m}].primitives[{p}]");
+                return Err(SceneError::file_content(path, &place, reason));
             }
         }
     }
     gltf::Document::from_json(root).map_err(|e| wrong(e.to_string()))
+}
+
+/// The objects of an array, which may not be there.
+fn objects<'a>(value: &'a mut Value, field: &str) -> impl Iterator<Item = &'a mut serde_json::Map<String, Value>> {
+    let array = value.get_mut(field).and_then(Value::as_array_mut);
+    array.into_iter().flatten().filter_map(Value::as_object_mut)
+}
+
+/// Removes all that is not read.
+fn remove_unread(document: &mut Value) {
+    const OF_ROOT: [&str; 7] = [
+        "extensionsRequired",
+        "extensionsUsed",
+        "extensions",
+        "animations",
+        "cameras",
+        "skins",
+        "extras",
+    ];
+    const OF_OBJECTS: [(&str, &[&str]); 8] = [
+        ("nodes", &["skin", "camera", "weights", "extensions", "extras"]),
+        (
+            "materials",
+            &[
+                "extensions",
+                "extras",
+                "normalTexture",
+                "occlusionTexture",
+                "emissiveTexture",
+                "emissiveFactor",
+            ],
+        ),
+        ("textures", &["extensions", "extras"]),
+        ("meshes", &["weights", "extensions", "extras"]),
+        ("images", &["extensions", "extras"]),
+        ("bufferViews", &["extensions", "extras", "target"]),
+        ("buffers", &["extensions", "extras"]),
+        ("accessors", &["extensions", "extras"]),
+    ];
+    if let Some(root) = document.as_object_mut() {
+        OF_ROOT.iter().for_each(|name| drop(root.remove(*name)));
+    }
+    for (field, unread) in OF_OBJECTS {
+        for object in objects(document, field) {
+            unread.iter().for_each(|name| drop(object.remove(*name)));
+        }
+    }
+    for mesh in document
+        .get_mut("meshes")
+        .and_then(Value::as_array_mut)
+        .into_iter()
+        .flatten()
+    {
+        for primitive in objects(mesh, "primitives") {
+            for name in ["targets", "extensions", "extras"] {
+                primitive.remove(name);
+            }
+            if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
+                let read = |name: &str| ["POSITION", "COLOR_0"].contains(&name) || name.starts_with("TEXCOORD_");
+                attributes.retain(|name, _| read(name));
+            }
+        }
+    }
+}
+
+/// Adds what the library demands of accessors and the format does not: bounds of positions, and a buffer view. Where
+/// there is no view, none is looked at.
+fn complete_accessors(document: &mut Value, has_views: bool) {
+    for accessor in objects(document, "accessors") {
+        if has_views && accessor.get("sparse").is_none() {
+            accessor.entry("bufferView").or_insert_with(|| 0.into());
+        }
+        for bound in ["min", "max"] {
+            accessor.insert(bound.to_owned(), Value::Array(vec![0.into(), 0.into(), 0.into()]));
+        }
+    }
 }
 
 /// Reads a glTF or GLB mesh.
@@ -517,8 +509,6 @@ impl File<'_> {
                 ..Part::default()
             });
         };
-        let triples = |n: usize| -> Vec<u32> { (0..n as u32).collect() };
-        use gltf::mesh::Mode;
         if let Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip = primitive.mode() {
             let what = if primitive.mode() == Mode::Points {
                 "primitives of points"
@@ -547,30 +537,7 @@ impl File<'_> {
                 world,
             )?);
         }
-        let indices = match primitive.indices() {
-            None => triples(points.len()),
-            Some(accessor) => {
-                if accessor.dimensions() != Dimensions::Scalar {
-                    return Err(self.wrong(&place, "its indices are not single numbers"));
-                }
-                if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32) {
-                    return Err(self.wrong(&place, "its indices are not unsigned integers"));
-                }
-                self.rows(&accessor)?.whole
-            }
-        };
-        if let Some(&i) = indices.iter().find(|&&i| i as usize >= points.len()) {
-            return Err(self.wrong(&place, format!("an index names vertex {i} of {}", points.len())));
-        }
-        let corners: Vec<u32> = match primitive.mode() {
-            Mode::TriangleStrip => indices.windows(3).flatten().copied().collect(),
-            Mode::TriangleFan => indices
-                .windows(2)
-                .skip(1)
-                .flat_map(|w| [indices[0], w[0], w[1]])
-                .collect(),
-            _ => indices.chunks_exact(3).flatten().copied().collect(),
-        };
+        let corners = self.corners(&place, primitive, points.len())?;
         let mut part = Part {
             corners: corners.iter().map(|&i| points[i as usize]).collect(),
             material: name,
@@ -578,6 +545,34 @@ impl File<'_> {
         };
         self.material(&place, primitive, &corners, points.len(), scene, &mut part)?;
         Ok(part)
+    }
+
+    /// The vertices of a primitive's triangles, three each.
+    fn corners(&self, place: &str, primitive: &gltf::Primitive<'_>, vertices: usize) -> Result<Vec<u32>, SceneError> {
+        let indices = match primitive.indices() {
+            None => (0..vertices as u32).collect(),
+            Some(accessor) => {
+                if accessor.dimensions() != Dimensions::Scalar {
+                    return Err(self.wrong(place, "its indices are not single numbers"));
+                }
+                if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32) {
+                    return Err(self.wrong(place, "its indices are not unsigned integers"));
+                }
+                self.rows(&accessor)?.whole
+            }
+        };
+        if let Some(&i) = indices.iter().find(|&&i| i as usize >= vertices) {
+            return Err(self.wrong(place, format!("an index names vertex {i} of {vertices}")));
+        }
+        Ok(match primitive.mode() {
+            Mode::TriangleStrip => indices.windows(3).flatten().copied().collect(),
+            Mode::TriangleFan => indices
+                .windows(2)
+                .skip(1)
+                .flat_map(|w| [indices[0], w[0], w[1]])
+                .collect(),
+            _ => indices.chunks_exact(3).flatten().copied().collect(),
+        })
     }
 
     /// One row a vertex of an attribute; none where it is not there.
@@ -635,48 +630,18 @@ impl File<'_> {
         }
         part.rgba = rgba(self.path, &shown, base)?;
         let mode = material.alpha_mode();
-        for glass in OF_GLASS.iter().filter(|_| !alpha_given) {
-            if let Some(value) = extension(&json, glass) {
-                let factor = value
-                    .get("transmissionFactor")
-                    .or(value.get("diffuseTransmissionFactor"));
-                let factor = factor
-                    .and_then(Value::as_f64)
-                    .map_or(String::new(), |f| format!(" {f}"));
-                let remedy = format!(
-                    "alpha stays {}; set it in the scene file: materials.'{shown}'.alpha = 0.3, or alpha of the whole \
-                        mesh",
-                    if mode == AlphaMode::Opaque { 1.0 } else { part.rgba[3] }
-                );
-                self.leave_out(format!("{glass}{factor} of material '{shown}'"), 1, &remedy);
-            }
+        if !alpha_given {
+            let alpha = if mode == AlphaMode::Opaque { 1.0 } else { part.rgba[3] };
+            self.name_glass(&json, &shown, alpha);
         }
-        if mode == AlphaMode::Opaque && part.rgba[3] < 1.0 && !alpha_given {
-            let remedy = "alphaMode is OPAQUE, under which glTF ignores alpha; set alphaMode to BLEND, or alpha in the \
-                scene file";
-            self.leave_out(format!("alpha {} of material '{shown}'", part.rgba[3]), 1, remedy);
+        let ignored = mode == AlphaMode::Opaque && !alpha_given;
+        if ignored && part.rgba[3] < 1.0 {
+            self.leave_out(format!("alpha {} of material '{shown}'", part.rgba[3]), 1, UNDER_OPAQUE);
         }
         if mode == AlphaMode::Opaque {
             part.rgba[3] = 1.0;
         }
-        if let Some(colors) = self.attribute(place, primitive, &Semantic::Colors(0), "COLOR_0", vertices)? {
-            if !(3..=4).contains(&colors.width) {
-                return Err(self.wrong(place, "COLOR_0 must hold three or four numbers a vertex"));
-            }
-            let row = |i: u32| {
-                let row = &colors.values[i as usize * colors.width..][..colors.width];
-                let alpha = if mode == AlphaMode::Opaque {
-                    1.0
-                } else {
-                    row.get(3).copied().unwrap_or(1.0)
-                };
-                [row[0].max(0.0), row[1].max(0.0), row[2].max(0.0), alpha.clamp(0.0, 1.0)]
-            };
-            part.vertex_rgba = corners.iter().map(|&i| row(i)).collect();
-            if part.vertex_rgba.iter().flatten().any(|x| !x.is_finite()) {
-                return Err(self.wrong(place, "COLOR_0 holds a number that is not finite"));
-            }
-        }
+        part.vertex_rgba = self.vertex_colors(place, primitive, corners, vertices, (&shown, ignored))?;
         let cutoff = (mode == AlphaMode::Mask).then(|| (material.alpha_cutoff().unwrap_or(0.5), 1.0));
         let mut textures = TexturedMaterial {
             color_counts: true,
@@ -688,6 +653,9 @@ impl File<'_> {
         if let Some(info) = texture.filter(|_| matters) {
             match self.texture(&info, vertices, place, primitive) {
                 Ok((found, coordinates)) => {
+                    if ignored && found.image.has_alpha() {
+                        self.leave_out(format!("alpha of the texture of material '{shown}'"), 1, UNDER_OPAQUE);
+                    }
                     textures.color = Some(found);
                     part.uv = corners
                         .iter()
@@ -709,6 +677,69 @@ impl File<'_> {
             part.textures = Some(textures);
         }
         Ok(())
+    }
+
+    /// Names what of a material is glass: `alpha` does not say how much of it is seen through.
+    fn name_glass(&mut self, json: &Value, shown: &str, alpha: f32) {
+        for glass in OF_GLASS {
+            if let Some(value) = extension(json, glass) {
+                let factor = value
+                    .get("transmissionFactor")
+                    .or(value.get("diffuseTransmissionFactor"));
+                let factor = factor
+                    .and_then(Value::as_f64)
+                    .map_or(String::new(), |f| format!(" {f}"));
+                let remedy = format!(
+                    "alpha stays {}; set it in the scene file: materials.'{shown}'.alpha = 0.3, or alpha of the whole \
+                        mesh",
+                    alpha
+                );
+                self.leave_out(format!("{glass}{factor} of material '{shown}'"), 1, &remedy);
+            }
+        }
+    }
+
+    /// Linear colour and opacity of the corners from `COLOR_0`, none where the primitive has none. `material` is the
+    /// name to show, and whether an opacity below 1 is ignored and must be named.
+    fn vertex_colors(
+        &mut self,
+        place: &str,
+        primitive: &gltf::Primitive<'_>,
+        corners: &[u32],
+        vertices: usize,
+        (shown, ignored): (&str, bool),
+    ) -> Result<Vec<[f32; 4]>, SceneError> {
+        let Some(colors) = self.attribute(place, primitive, &Semantic::Colors(0), "COLOR_0", vertices)? else {
+            return Ok(Vec::new());
+        };
+        if !(3..=4).contains(&colors.width) {
+            return Err(self.wrong(place, "COLOR_0 must hold three or four numbers a vertex"));
+        }
+        let faint = match colors.width {
+            4 => colors.values.chunks_exact(4).filter(|row| row[3] < 1.0).count(),
+            _ => 0,
+        };
+        if ignored && faint > 0 {
+            self.leave_out(
+                format!("alpha of COLOR_0 under material '{shown}'"),
+                faint,
+                UNDER_OPAQUE,
+            );
+        }
+        let row = |i: u32| {
+            let row = &colors.values[i as usize * colors.width..][..colors.width];
+            let alpha = if primitive.material().alpha_mode() == AlphaMode::Opaque {
+                1.0
+            } else {
+                row.get(3).copied().unwrap_or(1.0)
+            };
+            [row[0].max(0.0), row[1].max(0.0), row[2].max(0.0), alpha.clamp(0.0, 1.0)]
+        };
+        let rgba: Vec<[f32; 4]> = corners.iter().map(|&i| row(i)).collect();
+        if rgba.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(self.wrong(place, "COLOR_0 holds a number that is not finite"));
+        }
+        Ok(rgba)
     }
 
     /// A texture by what a material says of it, and the coordinates of the primitive's vertices in it.
@@ -837,74 +868,91 @@ impl File<'_> {
             }
         };
         if let Some(sparse) = accessor.sparse() {
-            let (entries, indices, values) = (sparse.count(), sparse.indices(), sparse.values());
-            let index_size = match indices.index_type() {
-                gltf::accessor::sparse::IndexType::U8 => 1,
-                gltf::accessor::sparse::IndexType::U16 => 2,
-                gltf::accessor::sparse::IndexType::U32 => 4,
-            };
-            let beyond = || self.wrong(&place, "its sparse entries reach beyond the end of their buffer view");
-            let index = packed(
-                self.view(&indices.view(), &place)?,
-                indices.offset(),
-                index_size,
-                index_size,
-                entries,
-            )
-            .ok_or_else(beyond)?;
-            let value =
-                packed(self.view(&values.view(), &place)?, values.offset(), size, size, entries).ok_or_else(beyond)?;
-            for (i, v) in index.chunks_exact(index_size).zip(value.chunks_exact(size)) {
-                let mut whole = [0; 4];
-                whole[..index_size].copy_from_slice(i);
-                let at = u32::from_le_bytes(whole) as usize;
-                let Some(target) = bytes.get_mut(at.saturating_mul(size)..at.saturating_mul(size).saturating_add(size))
-                else {
-                    return Err(self.wrong(&place, format!("a sparse entry names row {at} of {count}")));
-                };
-                target.copy_from_slice(v);
-            }
+            self.put_sparse(&place, &sparse, size, &mut bytes)?;
         }
-        let normalized = accessor.normalized();
-        let scaled = |x: f32, most: f32| if normalized { (x / most).max(-1.0) } else { x };
-        let mut rows = Rows {
-            width,
-            values: Vec::new(),
-            whole: Vec::new(),
-        };
-        match kind {
-            DataType::U8 if width == 1 => rows.whole = bytes.iter().map(|&b| b.into()).collect(),
-            DataType::U16 if width == 1 => {
-                rows.whole = bytes
-                    .chunks_exact(2)
-                    .map(|b| u16::from_le_bytes([b[0], b[1]]).into())
-                    .collect();
-            }
-            DataType::U32 => {
-                rows.whole = bytes
-                    .chunks_exact(4)
-                    .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-                    .collect();
-            }
-            DataType::I8 => rows.values = bytes.iter().map(|&b| scaled(f32::from(b as i8), 127.0)).collect(),
-            DataType::U8 => rows.values = bytes.iter().map(|&b| scaled(f32::from(b), 255.0)).collect(),
-            DataType::I16 => {
-                let all = bytes.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]]));
-                rows.values = all.map(|x| scaled(f32::from(x), 32767.0)).collect();
-            }
-            DataType::U16 => {
-                let all = bytes.chunks_exact(2).map(|b| u16::from_le_bytes([b[0], b[1]]));
-                rows.values = all.map(|x| scaled(f32::from(x), 65535.0)).collect();
-            }
-            DataType::F32 => {
-                rows.values = bytes
-                    .chunks_exact(4)
-                    .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
-                    .collect();
-            }
-        }
-        Ok(rows)
+        Ok(numbers_of(&bytes, width, kind, accessor.normalized()))
     }
+
+    /// Puts the entries of a sparse accessor in their places among rows of `size` bytes.
+    fn put_sparse(
+        &self,
+        place: &str,
+        sparse: &gltf::accessor::sparse::Sparse<'_>,
+        size: usize,
+        bytes: &mut [u8],
+    ) -> Result<(), SceneError> {
+        let count = bytes.len() / size;
+        let (entries, indices, values) = (sparse.count(), sparse.indices(), sparse.values());
+        let index_size = match indices.index_type() {
+            gltf::accessor::sparse::IndexType::U8 => 1,
+            gltf::accessor::sparse::IndexType::U16 => 2,
+            gltf::accessor::sparse::IndexType::U32 => 4,
+        };
+        let beyond = || self.wrong(place, "its sparse entries reach beyond the end of their buffer view");
+        let index = packed(
+            self.view(&indices.view(), place)?,
+            indices.offset(),
+            index_size,
+            index_size,
+            entries,
+        )
+        .ok_or_else(beyond)?;
+        let value =
+            packed(self.view(&values.view(), place)?, values.offset(), size, size, entries).ok_or_else(beyond)?;
+        for (i, v) in index.chunks_exact(index_size).zip(value.chunks_exact(size)) {
+            let mut whole = [0; 4];
+            whole[..index_size].copy_from_slice(i);
+            let at = u32::from_le_bytes(whole) as usize;
+            let Some(target) = bytes.get_mut(at.saturating_mul(size)..at.saturating_mul(size).saturating_add(size))
+            else {
+                return Err(self.wrong(place, format!("a sparse entry names row {at} of {count}")));
+            };
+            target.copy_from_slice(v);
+        }
+        Ok(())
+    }
+}
+
+/// Numbers of an accessor from their bytes, those that stand for shares of one scaled.
+fn numbers_of(bytes: &[u8], width: usize, kind: DataType, normalized: bool) -> Rows {
+    let scaled = |x: f32, most: f32| if normalized { (x / most).max(-1.0) } else { x };
+    let mut rows = Rows {
+        width,
+        values: Vec::new(),
+        whole: Vec::new(),
+    };
+    match kind {
+        DataType::U8 if width == 1 => rows.whole = bytes.iter().map(|&b| b.into()).collect(),
+        DataType::U16 if width == 1 => {
+            rows.whole = bytes
+                .chunks_exact(2)
+                .map(|b| u16::from_le_bytes([b[0], b[1]]).into())
+                .collect();
+        }
+        DataType::U32 => {
+            rows.whole = bytes
+                .chunks_exact(4)
+                .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+                .collect();
+        }
+        DataType::I8 => rows.values = bytes.iter().map(|&b| scaled(f32::from(b as i8), 127.0)).collect(),
+        DataType::U8 => rows.values = bytes.iter().map(|&b| scaled(f32::from(b), 255.0)).collect(),
+        DataType::I16 => {
+            let all = bytes.chunks_exact(2).map(|b| i16::from_le_bytes([b[0], b[1]]));
+            rows.values = all.map(|x| scaled(f32::from(x), 32767.0)).collect();
+        }
+        DataType::U16 => {
+            let all = bytes.chunks_exact(2).map(|b| u16::from_le_bytes([b[0], b[1]]));
+            rows.values = all.map(|x| scaled(f32::from(x), 65535.0)).collect();
+        }
+        DataType::F32 => {
+            rows.values = bytes
+                .chunks_exact(4)
+                .map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+                .collect();
+        }
+    }
+    rows
 }
 
 /// `count` pieces of `size` bytes, `stride` apart, one after the other; none where they reach beyond the end.

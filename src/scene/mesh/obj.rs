@@ -129,6 +129,77 @@ impl Material {
     fn alpha(&self) -> f32 {
         self.dissolve.or(self.transparency.map(|t| 1.0 - t)).unwrap_or(1.0)
     }
+
+    /// Takes in a statement of the library under the material's name.
+    fn read(
+        &mut self,
+        source: &mut Source<'_>,
+        name: &str,
+        number: usize,
+        word: &str,
+        rest: &str,
+    ) -> Result<(), SceneError> {
+        let path = source.path;
+        let one = |rest: &str| {
+            rest.parse::<f32>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
+                SceneError::file_content(
+                    path,
+                    &format!("line {number}"),
+                    format!("{word} '{rest}': a number is expected"),
+                )
+            })
+        };
+        match word {
+            "Kd" => {
+                self.color = match numbers(rest).as_deref() {
+                    Some([grey]) => Some([*grey; 3]),
+                    Some([r, g, b, ..]) => Some([*r, *g, *b]),
+                    _ => {
+                        let reason = format!(
+                            "Kd '{rest}': one or three numbers are expected; spectral and xyz colours are not supported"
+                        );
+                        return Err(source.wrong(number, reason));
+                    }
+                }
+            }
+            "d" => match rest.strip_prefix("-halo").map(str::trim) {
+                Some(rest) => {
+                    self.dissolve = Some(one(rest)?);
+                    let remedy = "opacity is that of a surface seen face on, at every angle";
+                    source.leave_out(format!("the halo of d -halo in material '{name}'"), remedy);
+                }
+                None => self.dissolve = Some(one(rest)?),
+            },
+            "Tr" => self.transparency = Some(one(rest)?),
+            "map_Kd" => self.color_map = Some((number, rest.to_owned())),
+            "map_d" => self.opacity_map = Some((number, rest.to_owned())),
+            "Tf" => {
+                if numbers(rest).is_none_or(|v| v.iter().any(|x| *x != 1.0)) {
+                    let remedy = "set alpha and color of the material in the scene file";
+                    source.leave_out(format!("the transmission filter Tf of material '{name}'"), remedy);
+                }
+            }
+            "Ke" | "map_Ke" => {
+                if word == "map_Ke" || numbers(rest).is_none_or(|v| v.iter().any(|x| *x != 0.0)) {
+                    source.leave_out(
+                        format!("emission ({word}) of material '{name}'"),
+                        "surfaces are matt and lit",
+                    );
+                }
+            }
+            _ if OF_LIGHTING.contains(&word) => {
+                if word == "illum" && ["4", "6", "7", "9"].contains(&rest) {
+                    let remedy = format!(
+                        "it means glass, and opacity is that of d and Tr alone; set materials.'{name}'.alpha in the \
+                            scene file if it is not meant"
+                    );
+                    source.leave_out(format!("illum {rest} of material '{name}'"), &remedy);
+                }
+            }
+            _ => source.leave_out(format!("'{word}' of material '{name}'"), "nothing here depends on it"),
+        }
+        Ok(())
+    }
 }
 
 /// Reads a library into `materials`; a name that is there already stays as it was.
@@ -164,64 +235,7 @@ fn library(
             continue;
         };
         let material = own.get_mut(name).expect("it was put there");
-        let one = |rest: &str| {
-            rest.parse::<f32>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
-                SceneError::file_content(
-                    path,
-                    &format!("line {number}"),
-                    format!("{word} '{rest}': a number is expected"),
-                )
-            })
-        };
-        match word {
-            "Kd" => {
-                material.color = match numbers(rest).as_deref() {
-                    Some([grey]) => Some([*grey; 3]),
-                    Some([r, g, b, ..]) => Some([*r, *g, *b]),
-                    _ => {
-                        let reason = format!(
-                            "Kd '{rest}': one or three numbers are expected; spectral and xyz colours are not supported"
-                        );
-                        return Err(source.wrong(number, reason));
-                    }
-                }
-            }
-            "d" => match rest.strip_prefix("-halo").map(str::trim) {
-                Some(rest) => {
-                    material.dissolve = Some(one(rest)?);
-                    let remedy = "opacity is that of a surface seen face on, at every angle";
-                    source.leave_out(format!("the halo of d -halo in material '{name}'"), remedy);
-                }
-                None => material.dissolve = Some(one(rest)?),
-            },
-            "Tr" => material.transparency = Some(one(rest)?),
-            "map_Kd" => material.color_map = Some((number, rest.to_owned())),
-            "map_d" => material.opacity_map = Some((number, rest.to_owned())),
-            "Tf" => {
-                if numbers(rest).is_none_or(|v| v.iter().any(|x| *x != 1.0)) {
-                    let remedy = "set alpha and color of the material in the scene file";
-                    source.leave_out(format!("the transmission filter Tf of material '{name}'"), remedy);
-                }
-            }
-            "Ke" | "map_Ke" => {
-                if word == "map_Ke" || numbers(rest).is_none_or(|v| v.iter().any(|x| *x != 0.0)) {
-                    source.leave_out(
-                        format!("emission ({word}) of material '{name}'"),
-                        "surfaces are matt and lit",
-                    );
-                }
-            }
-            _ if OF_LIGHTING.contains(&word) => {
-                if word == "illum" && ["4", "6", "7", "9"].contains(&rest) {
-                    let remedy = format!(
-                        "it means glass, and opacity is that of d and Tr alone; set materials.'{name}'.alpha in the \
-                            scene file if it is not meant"
-                    );
-                    source.leave_out(format!("illum {rest} of material '{name}'"), &remedy);
-                }
-            }
-            _ => source.leave_out(format!("'{word}' of material '{name}'"), "nothing here depends on it"),
-        }
+        material.read(&mut source, name, number, word, rest)?;
     }
     for (name, material) in own {
         if let (Some(d), Some(t)) = (material.dissolve, material.transparency)
@@ -468,71 +482,63 @@ struct Group {
 /// [`SceneError`] names the file, the line, and what is wrong there.
 pub(super) fn read(path: &Path, scene: &dyn Overrides, left_out: &mut Vec<LeftOut>) -> Result<Vec<Part>, SceneError> {
     let content = text(&read_file(path)?);
-    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut mesh = Mesh::default();
     let mut source = Source { path, left_out };
-    let mut materials: HashMap<String, Material> = HashMap::new();
-    let (mut found, mut missing): (Vec<PathBuf>, Vec<(usize, Vec<PathBuf>)>) = (Vec::new(), Vec::new());
-    let (mut vertices, mut coordinates): (Vec<[f32; 3]>, Vec<[f32; 2]>) = (Vec::new(), Vec::new());
-    let mut groups: Vec<(Option<String>, Group)> = Vec::new();
-    let mut places: HashMap<Option<String>, usize> = HashMap::new();
-    let (mut current, mut line_of_material): (Option<String>, usize) = (None, 0);
-    let mut normals = 0;
-    let mut cutter = Earcut::new();
     for (number, line) in lines(&content) {
         let (word, rest) = statement(&line);
+        mesh.take(&mut source, number, word, rest)?;
+    }
+    let mut images = HashMap::new();
+    let groups = std::mem::take(&mut mesh.groups);
+    let mut parts = Vec::with_capacity(groups.len());
+    for (name, group) in groups {
+        let known = mesh.material(&source, name.as_deref(), group.line, scene)?;
+        parts.push(part(name, group, known, scene, &mut images, source.left_out)?);
+    }
+    Ok(parts)
+}
+
+/// What has been read of a mesh.
+#[derive(Default)]
+struct Mesh {
+    vertices: Vec<[f32; 3]>,
+    coordinates: Vec<[f32; 2]>,
+    normals: usize,
+    /// Faces by material, in the order in which materials were first used.
+    groups: Vec<(Option<String>, Group)>,
+    places: HashMap<Option<String>, usize>,
+    /// The material of the faces to come, and the line that names it.
+    current: (Option<String>, usize),
+    materials: HashMap<String, Material>,
+    libraries: Vec<PathBuf>,
+    /// Libraries that are not there: the line, and where they were looked for.
+    missing: Vec<(usize, Vec<PathBuf>)>,
+    cutter: Earcut<f64>,
+}
+
+impl Mesh {
+    /// Takes in a statement.
+    fn take(&mut self, source: &mut Source<'_>, number: usize, word: &str, rest: &str) -> Result<(), SceneError> {
         match word {
-            "v" => {
-                let values = numbers(rest).filter(|v| v.len() >= 3).ok_or_else(|| {
-                    let place = format!("vertex {} (line {number})", vertices.len() + 1);
-                    let reason = format!("'{rest}': three coordinates are expected, each a finite number");
-                    SceneError::file_content(path, &place, reason)
-                })?;
-                if values.len() > 4 {
-                    source.leave_out("colours of vertices", "give the material a colour, or export glTF");
-                }
-                let place = || format!("vertex {} (line {number})", vertices.len() + 1);
-                let p = position(path, place, [values[0], values[1], values[2]])?;
-                vertices.push(p);
-            }
+            "v" => self.vertex(source, number, rest)?,
             "vt" => {
                 let values = numbers(rest).filter(|v| !v.is_empty());
                 let values =
                     values.ok_or_else(|| source.wrong(number, format!("vt '{rest}': numbers are expected")))?;
-                coordinates.push([values[0], 1.0 - values.get(1).copied().unwrap_or(0.0)]);
+                let v = values.get(1).copied().unwrap_or(0.0);
+                self.coordinates.push([values[0], 1.0 - v]);
             }
-            "vn" => normals += 1,
-            "f" | "fo" => {
-                let so_far = SoFar {
-                    vertices: vertices.len(),
-                    coordinates: coordinates.len(),
-                    normals,
-                };
-                let face = corners(&source, number, rest, so_far)?;
-                let points: Vec<_> = face.iter().map(|c| vertices[c.0].map(f64::from)).collect();
-                let place = *places.entry(current.clone()).or_insert_with(|| {
-                    groups.push((current.clone(), Group::default()));
-                    groups.len() - 1
-                });
-                let group = &mut groups[place].1;
-                if group.line == 0 {
-                    group.line = if current.is_some() { line_of_material } else { number };
-                }
-                for i in polygon::triangles(&points, &mut cutter).into_iter().flatten() {
-                    let (vertex, coordinate) = face[i as usize];
-                    group.corners.push(vertices[vertex]);
-                    group.uv.push(coordinate.map_or([0.0; 2], |c| coordinates[c]));
-                    group.bare |= coordinate.is_none();
-                }
-            }
-            "usemtl" => (current, line_of_material) = (Some(rest.to_owned()), number),
-            "mtllib" => match library_files(folder, rest) {
+            "vn" => self.normals += 1,
+            "f" | "fo" => self.face(source, number, rest)?,
+            "usemtl" => self.current = (Some(rest.to_owned()), number),
+            "mtllib" => match library_files(source.path.parent().unwrap_or(Path::new(".")), rest) {
                 Ok(files) => {
                     for file in files {
-                        library(&file, &mut materials, source.left_out)?;
-                        found.push(file);
+                        library(&file, &mut self.materials, source.left_out)?;
+                        self.libraries.push(file);
                     }
                 }
-                Err(tried) => missing.push((number, tried)),
+                Err(tried) => self.missing.push((number, tried)),
             },
             "l" | "p" => {
                 // Indices out of bounds are damage, whether the shape is drawn or not.
@@ -552,72 +558,104 @@ pub(super) fn read(path: &Path, scene: &dyn Overrides, left_out: &mut Vec<LeftOu
                 "only polygons are read; export the shape as a mesh",
             ),
         }
+        Ok(())
     }
-    let mut images = HashMap::new();
-    let mut parts = Vec::with_capacity(groups.len());
-    for (name, group) in groups {
-        let known = name.as_ref().and_then(|n| materials.get(n));
-        let given = scene.gives_alpha(name.as_deref()) && scene.gives_color(name.as_deref());
-        let nameless = name.as_deref().is_none_or(|n| ["", "None", "(null)"].contains(&n));
-        if known.is_none() && !given {
-            if let Some((line, tried)) = missing.first() {
-                let reason = format!(
-                    "the material library is not there; looked for {}; put it there, or give the mesh both color and \
-                        alpha in the scene file",
-                    listed(tried)
-                );
-                return Err(source.wrong(*line, reason));
-            }
-            if !nameless {
-                let mut names: Vec<&str> = materials.keys().map(String::as_str).collect();
-                names.sort_unstable();
-                let reason = format!(
-                    "there is no material '{}'; {} {}; correct the name, or give the mesh both color and alpha in the \
-                        scene file",
-                    name.as_deref().unwrap_or(""),
-                    if found.is_empty() {
-                        "no mtllib line names a library".to_owned()
-                    } else {
-                        listed(&found)
-                    },
-                    if names.is_empty() {
-                        "with materials".to_owned()
-                    } else {
-                        format!("holds {}", names.join(", "))
-                    },
-                );
-                return Err(source.wrong(group.line, reason));
-            }
+
+    fn vertex(&mut self, source: &mut Source<'_>, number: usize, rest: &str) -> Result<(), SceneError> {
+        let place = || format!("vertex {} (line {number})", self.vertices.len() + 1);
+        let values = numbers(rest).filter(|v| v.len() >= 3).ok_or_else(|| {
+            let reason = format!("'{rest}': three coordinates are expected, each a finite number");
+            SceneError::file_content(source.path, &place(), reason)
+        })?;
+        if values.len() > 4 {
+            source.leave_out("colours of vertices", "give the material a colour, or export glTF");
         }
-        parts.push(part(name, group, known, scene, &mut images, source.left_out)?);
+        let p = position(source.path, place, [values[0], values[1], values[2]])?;
+        self.vertices.push(p);
+        Ok(())
     }
-    Ok(parts)
+
+    fn face(&mut self, source: &Source<'_>, number: usize, rest: &str) -> Result<(), SceneError> {
+        let so_far = SoFar {
+            vertices: self.vertices.len(),
+            coordinates: self.coordinates.len(),
+            normals: self.normals,
+        };
+        let face = corners(source, number, rest, so_far)?;
+        let points: Vec<_> = face.iter().map(|c| self.vertices[c.0].map(f64::from)).collect();
+        let (material, line_of_material) = &self.current;
+        let place = *self.places.entry(material.clone()).or_insert_with(|| {
+            self.groups.push((material.clone(), Group::default()));
+            self.groups.len() - 1
+        });
+        let group = &mut self.groups[place].1;
+        if group.line == 0 {
+            group.line = if material.is_some() { *line_of_material } else { number };
+        }
+        for i in polygon::triangles(&points, &mut self.cutter).into_iter().flatten() {
+            let (vertex, coordinate) = face[i as usize];
+            group.corners.push(self.vertices[vertex]);
+            group.uv.push(coordinate.map_or([0.0; 2], |c| self.coordinates[c]));
+            group.bare |= coordinate.is_none();
+        }
+        Ok(())
+    }
+
+    /// The material of a name that faces use first in this line; none where they have none, or the scene file says all
+    /// of it.
+    fn material(
+        &self,
+        source: &Source<'_>,
+        name: Option<&str>,
+        line: usize,
+        scene: &dyn Overrides,
+    ) -> Result<Option<&Material>, SceneError> {
+        let known = name.and_then(|n| self.materials.get(n));
+        if known.is_some() || (scene.gives_alpha(name) && scene.gives_color(name)) {
+            return Ok(known);
+        }
+        if let Some((line, tried)) = self.missing.first() {
+            let reason = format!(
+                "the material library is not there; looked for {}; put it there, or give the mesh both color and \
+                    alpha in the scene file",
+                listed(tried)
+            );
+            return Err(source.wrong(*line, reason));
+        }
+        let nameless = name.is_none_or(|n| ["", "None", "(null)"].contains(&n));
+        if nameless {
+            return Ok(None);
+        }
+        let mut names: Vec<&str> = self.materials.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        let reason = format!(
+            "there is no material '{}'; {} {}; correct the name, or give the mesh both color and alpha in the scene \
+                file",
+            name.unwrap_or(""),
+            if self.libraries.is_empty() {
+                "no mtllib line names a library".to_owned()
+            } else {
+                listed(&self.libraries)
+            },
+            if names.is_empty() {
+                "with materials".to_owned()
+            } else {
+                format!("holds {}", names.join(", "))
+            },
+        );
+        Err(source.wrong(line, reason))
+    }
 }
 
-/// Triangles of one material with what it says of colour and opacity.
-fn part(
-    name: Option<String>,
-    group: Group,
-    material: Option<&Material>,
+/// The textures of a material that the scene file does not replace.
+fn textures(
+    material: &Material,
+    name: &str,
     scene: &dyn Overrides,
     images: &mut HashMap<PathBuf, Arc<Image>>,
     left_out: &mut Vec<LeftOut>,
-) -> Result<Part, SceneError> {
-    let mut part = Part {
-        corners: group.corners,
-        rgba: [GREY[0], GREY[1], GREY[2], 1.0],
-        ..Part::default()
-    };
-    let (Some(material), Some(name)) = (material, &name) else {
-        // A material that the scene file gives alone is still known by its name.
-        part.material = name;
-        return Ok(part);
-    };
+) -> Result<TexturedMaterial, SceneError> {
     let library = material.library.display().to_string();
-    let [r, g, b] = material
-        .color
-        .unwrap_or(if material.color_map.is_some() { [1.0; 3] } else { GREY });
-    part.rgba = rgba(&material.library, name, [r, g, b, material.alpha()])?;
     let mut textures = TexturedMaterial {
         color_counts: true,
         ..TexturedMaterial::default()
@@ -654,6 +692,34 @@ fn part(
         };
         textures.opacity = Some((texture, channel.unwrap_or(usual)));
     }
+    Ok(textures)
+}
+
+/// Triangles of one material with what it says of colour and opacity.
+fn part(
+    name: Option<String>,
+    group: Group,
+    material: Option<&Material>,
+    scene: &dyn Overrides,
+    images: &mut HashMap<PathBuf, Arc<Image>>,
+    left_out: &mut Vec<LeftOut>,
+) -> Result<Part, SceneError> {
+    let mut part = Part {
+        corners: group.corners,
+        rgba: [GREY[0], GREY[1], GREY[2], 1.0],
+        ..Part::default()
+    };
+    let (Some(material), Some(name)) = (material, &name) else {
+        // A material that the scene file gives alone is still known by its name.
+        part.material = name;
+        return Ok(part);
+    };
+    let library = material.library.display().to_string();
+    let [r, g, b] = material
+        .color
+        .unwrap_or(if material.color_map.is_some() { [1.0; 3] } else { GREY });
+    part.rgba = rgba(&material.library, name, [r, g, b, material.alpha()])?;
+    let textures = textures(material, name, scene, images, left_out)?;
     if textures.color.is_some() || textures.opacity.is_some() {
         if group.bare {
             if textures.opacity.is_some() {

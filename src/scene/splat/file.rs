@@ -577,27 +577,29 @@ fn spz(mut reader: Reader<'_, impl BufRead>) -> Result<Splats, SceneError> {
             [color(0), color(1), color(2), f64::from(alpha) / 255.0],
         )?;
     }
-    let mut left_out = Vec::new();
     let file = reader.path.display().to_string();
-    if degree > 0 {
-        let what = format!(
-            "spherical harmonics above degree 0 ({} coefficients a splat)",
-            harmonics * 3
-        );
+    Ok(out.done(left_out_of_spz(&file, count, harmonics * 3, flags & 1 != 0)))
+}
+
+/// What of an SPZ file is left out: harmonics, so many coefficients a splat, and the flag of antialiased training.
+fn left_out_of_spz(file: &str, count: u64, coefficients: u64, antialiased: bool) -> Vec<LeftOut> {
+    let mut left_out = Vec::new();
+    if coefficients > 0 {
+        let what = format!("spherical harmonics above degree 0 ({coefficients} coefficients a splat)");
         note(
             &mut left_out,
-            LeftOut::new(what, &file, count, "colours do not depend on the direction of view"),
+            LeftOut::new(what, file, count, "colours do not depend on the direction of view"),
         );
     }
-    if flags & 1 != 0 {
+    if antialiased {
         let remedy = "the pixel's extent is added without making the splat fainter; train without antialiasing for the \
             same picture";
         note(
             &mut left_out,
-            LeftOut::new("the flag 'trained with antialiasing'", &file, 1, remedy),
+            LeftOut::new("the flag 'trained with antialiasing'", file, 1, remedy),
         );
     }
-    Ok(out.done(left_out))
+    left_out
 }
 
 /// A quaternion w, x, y, z from its three smallest parts in nine bits and a sign each; the two highest bits name the

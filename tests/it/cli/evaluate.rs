@@ -265,3 +265,81 @@ fn a_prepass_helps_thin_pixels() {
     .code(2)
     .stderr(contains("--model"));
 }
+
+/// What is wrong with the last scene is said before the first is judged, and nothing is written.
+#[test]
+fn evaluate_reads_all_scenes_first() {
+    let at = Workplace::new();
+    std::fs::write(at.path("bad.npz"), b"no archive").unwrap();
+    nmt(&[
+        "evaluate",
+        "--fragments",
+        "glass-stacks",
+        &at.path("bad.npz"),
+        "--methods",
+        "abuffer",
+        "--out",
+        &at.path("e"),
+    ])
+    .code(2)
+    .stderr(contains("bad.npz"));
+    assert!(!Path::new(&at.path("e")).exists());
+}
+
+/// Scenes of one name are told apart by their folders, and an evaluation that was interrupted goes on: scenes that are
+/// done are not judged again, and the numbers are those of one that was not interrupted. Control: another command does
+/// not go on.
+#[test]
+fn evaluate_goes_on() {
+    let at = Workplace::new();
+    for (folder, scene) in [("a", "glass-stacks"), ("b", "spheres")] {
+        std::fs::create_dir(at.path(folder)).unwrap();
+        let file = at.path(&format!("{folder}/x.npz"));
+        nmt(&["scene", scene, "--size", "40x30", "--out", &file]).success();
+    }
+    let evaluate = |methods: &str, more: &[&str]| {
+        let (a, b, out) = (at.path("a/x.npz"), at.path("b/x.npz"), at.path("e"));
+        nmt(&[
+            &["evaluate", "--fragments", &a, &b, "--methods", methods, "--out", &out],
+            more,
+        ]
+        .concat())
+    };
+    let methods = "abuffer,moment-power-4,weighted-average";
+    // A folder where the second scene's picture belongs interrupts the first attempt.
+    let blocked = at.path("e/b-x/truth.png");
+    std::fs::create_dir_all(&blocked).unwrap();
+    evaluate(methods, &[]).code(2).stderr(contains("truth.png"));
+    std::fs::remove_dir(&blocked).unwrap();
+    let done = std::path::PathBuf::from(at.path("e/a-x/scene.json"));
+    assert!(done.is_file() && !Path::new(&at.path("e/results.json")).exists());
+    evaluate("abuffer", &[]).code(2).stderr(contains("interrupted"));
+
+    // What is kept of a scene is read and not judged again: it shows in the second attempt.
+    let kept = std::fs::read_to_string(&done).unwrap();
+    std::fs::write(
+        &done,
+        kept.replace("\"remarks\":\"\"", "\"remarks\":\"as it was kept\""),
+    )
+    .unwrap();
+    evaluate(methods, &[])
+        .success()
+        .stdout(contains("as it was kept").and(contains("a-x").and(contains("b-x"))));
+    for file in ["unfinished.json", "evaluate.lock", "a-x/scene.json", "b-x/scene.json"] {
+        assert!(!Path::new(&at.path("e")).join(file).exists(), "{file}");
+    }
+    let read = || -> serde_json::Value {
+        let text = std::fs::read(at.path("e/results.json")).unwrap();
+        serde_json::from_slice(&text).unwrap()
+    };
+    let errors = |report: &serde_json::Value| -> Vec<(String, String, Option<f64>)> {
+        let results = report["results"].as_array().unwrap();
+        let text = |value: &serde_json::Value| value.as_str().unwrap().to_owned();
+        let of = |r: &serde_json::Value| (text(&r["scene"]), text(&r["method"]), r["image_mse"].as_f64());
+        results.iter().map(of).collect()
+    };
+    let gone_on = errors(&read());
+    assert_eq!(gone_on.len(), 6);
+    evaluate(methods, &["--force"]).success();
+    assert_eq!(errors(&read()), gone_on);
+}
