@@ -4,7 +4,7 @@
 %sums // Target {i}: {dxformat{i}}, cleared to 0.
 // Buffer u{range}, behind the targets, whose slots Direct3D 11 shares with it: {words} words a pixel, cleared to 0.
 //
-%include nmt_core_insert nmt_core_codes nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
+%include nmt_core_insert nmt_core_codes nmt_core_steps nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
 
 cbuffer Frame : register(b0) {
     // Least and greatest distance along the view direction of what is transparent.

@@ -9,7 +9,7 @@
 %es precision highp float;
 %es precision highp int;
 %es
-%include nmt_core_insert nmt_core_codes nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
+%include nmt_core_insert nmt_core_codes nmt_core_steps nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
 
 // Atomics write even where a depth test behind the shader fails.
 layout(early_fragment_tests) in;

@@ -5,7 +5,7 @@
 %sums // Target {i}: {format{i}}, blend add, factors one and one, cleared to 0.
 // Buffer of group 3: {words} words a pixel, cleared to 0.
 //
-%include nmt_core_insert nmt_core_codes nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
+%include nmt_core_insert nmt_core_codes nmt_core_steps nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
 
 struct Frame {
     // Least and greatest distance along the view direction of what is transparent.
