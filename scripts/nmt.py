@@ -282,9 +282,39 @@ def described(sums, least):
     return columns
 
 
+BOUNDS_BIAS = 1e-4  # how much of the uniform law's moments is blended into those that bounds are taken of
+
+
+def bounds(x, m):
+    """Least and greatest share in front of x of the measures on [-1, 1] that have the moments m: Markov's bounds."""
+    if len(m) == 2:
+        lower, upper = (x - m[1]) / np.maximum(1 + x, 1e-6), (1 - m[1]) / np.maximum(1 - x, 1e-6)
+        return [np.clip(lower, 0, 1), np.clip(upper, 0, 1)]
+    uniform = [1, 0, 1 / 3, 0, 1 / 5]
+    m = [moment * (1 - BOUNDS_BIAS) + at * BOUNDS_BIAS for moment, at in zip(m, uniform)]
+    variance = np.maximum(m[2] - m[1] ** 2, 1e-7)
+    y = (x - m[1]) / np.sqrt(variance)
+    if len(m) < 5:
+        most = 1 / (1 + y**2)
+        lower = np.where(y < 0, 0, 1 - most)
+        return [lower, lower + most]
+    skewness = (m[3] - 3 * m[1] * m[2] + 2 * m[1] ** 3) / variance**1.5
+    fourth = (m[4] - 4 * m[1] * m[3] + 6 * m[1] ** 2 * m[2] - 3 * m[1] ** 4) / variance**2
+    g = np.clip(skewness, -30, 30)
+    d = np.clip(fourth - g**2 - 1, 1e-3, 1e4)
+    # Orthonormal polynomials at y: 1, y and sqrt(d) q. The other points are the roots of q u^2 + (y - q g) u + 1 - q.
+    q = (y**2 - g * y - 1) / d
+    most = 1 / (1 + y**2 + q**2 * d)
+    linear = y - q * g
+    root = np.sqrt(np.maximum(linear**2 - 4 * q * (1 - q), 1e-12))
+    between = np.clip((1 - most) / 2 * (1 + linear / root) - most * y * q / root, 0, 1 - most)
+    lower = np.where(q < 0, between, np.where(y > g / 2, 1 - most, 0))
+    return [lower, lower + most]
+
+
 DEPTH_STEPS = 1 << 16  # of a core's codes
 OCTAVE_BITS = 11  # steps of absorbance to the octave, as a power of two
-KEY_EXPONENT = 6  # k of the key A / v^k
+KEY_EXPONENT = 10  # k of the key A / v^k
 LINEAR_BELOW = np.float32(2.0**-10)  # absorbance below which steps are linear
 
 
@@ -361,14 +391,14 @@ def core_features(fragments, moments, heavy):
     tail = [fragments.totals(weight * x**k)[pixel] - np.where(own, absorbance * x**k, 0) for k in range(moments + 1)]
     others = np.maximum(tail[0], 0)
     count = fragments.totals(in_tail.astype(np.float64))[pixel] - own
-    rows = [x, np.log2(np.maximum(count, 1)) / 3 - 1, np.log(others + 0.05), *described(tail, 1e-12)]
+    m = [np.clip(moment / np.maximum(others, 1e-12), -1, 1) for moment in tail]
+    rows = [x, np.log2(np.maximum(count, 1)) / 3 - 1, np.log(others + 0.05), *bounds(x, m), *described(tail, 1e-12)]
 
     # Short tails: where one fragment lies, or two, follows from their moments, but for the rounding of sums in f32.
     total = fragments.totals(absorbance)[pixel]
     noise = total / np.maximum(others, 1e-12) * (1 + np.abs(center)) / half * 16 * np.finfo(np.float32).eps
     step = 2 / DEPTH_STEPS / half
     before = lambda place, off: np.clip((x - place - step / 4) / (step / 2 + off), 0, 1)
-    m = [np.clip(moment / np.maximum(others, 1e-12), -1, 1) for moment in tail]
     share = before(m[1], noise)
     if moments >= 3:
         variance = np.maximum(m[2] - m[1] ** 2, 1e-9)

@@ -14,25 +14,27 @@
 #ifndef NMT_INCLUDED_CORE_SMALL_CHAIN
 #define NMT_INCLUDED_CORE_SMALL_CHAIN
 
-// Neural moment transparency: network 'core-small', 7-16-8-1, 248 multiply-adds.
+// Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
 //
-// Features, set 'core-2-4', in this order: x, count, ln_b0, mean, spread, inner_mean, inner_spread.
+// Features, set 'core-2-4', in this order: x, count, ln_b0, lower, upper, mean, spread, inner_mean, inner_spread.
 // Pass 1 rounds a fragment to a depth step q and an absorbance step a (nmt_core_steps), which stand for moment
 // depth z = (2 q + 1)/2^16 - 1 and absorbance A. It adds up b_k = sum of A z^k, counts fragments (n), and
-// keeps the core in codes of 32 bits: nearest, farthest, and the K heaviest of the rest by A / v^6, an atomic
+// keeps the core in codes of 32 bits: nearest, farthest, and the K heaviest of the rest by A / v^10, an atomic
 // maximum for each slot. Pass 2 takes the core and the fragment itself out of the sums; what is left is the
 // tail, b_k''. c and h are middle and half of the range of z from the nearest to the farthest; x = (z - c)/h;
 // count = log2 of the number of fragments in the tail, /3 - 1; ln_b0 = ln(b_0'' + 0.05); m_k = moments of the
 // tail in (z - c)/h, normalised by b_0'': mean = m_1, spread = (m_2 - m_1^2)/(1 - m_1^2); inner_ of (1 - x^2)
-// times the tail, the spread being its square root; inner2_ of (1 - x^2)^2 times the tail. The answer is T =
+// times the tail, the spread being its square root; inner2_ of (1 - x^2)^2 times the tail; lower and upper =
+// least and greatest share of the tail in front of x that m_1..m_4 allow (of fewer moments, m_1 and m_2, or m_1
+// alone): Markov's bounds. The answer is T =
 // exp(-(core in front) - b_0'' s), s the network's sigmoid: the share of the tail in front. The network's
 // function answers with exp(-b_0'' s), which is to be multiplied by exp(-(core in front)). Not part of the
 // network, and to be applied before it: at or before the nearest: T = 1; no tail: exp(-(core in front)); at or
 // behind the farthest: all of the tail lies in front; a tail of one fragment, and of two where M >= 3: closed
 // forms.
 //
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 5d4deb2f2c8a96ac5dfda935ab5f840b24948e782c8fbc4ba250b79fb256de83.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 #ifndef NMT_INCLUDED_CORE_SMALL
@@ -43,57 +45,58 @@ precision highp float;
 precision highp int;
 #endif
 
-// The features of a fragment that needs the network, from its three numbers and the means and spreads of the tail.
-mat2x4 nmt_features(float x, float count, float ln_b0, vec4 tail) {
-    return mat2x4(vec4(x, count, ln_b0, tail.x), vec4(tail.yzw, 0.0));
+// The features of a fragment that needs the network, from its five numbers and the means and spreads of the tail.
+mat3x4 nmt_features(float x, float count, float ln_b0, float lower, float upper, vec4 tail) {
+    return mat3x4(vec4(x, count, ln_b0, lower), vec4(upper, tail.xyz), vec4(tail.w, 0.0, 0.0, 0.0));
 }
 
-const mat4 NMT_W1[8] = mat4[8](
-    mat4(vec4(1.4474705, -2.3140097, 2.4587274, -2.0283625), vec4(0.025019553, -0.03455168, -0.20108078, -0.3676571), vec4(0.02266329, 0.048362754, 0.033006392, 0.4335871), vec4(-4.9143996, 2.5796134, -2.5119598, 1.4190323)),
-    mat4(vec4(4.1092668, 4.0608425, -3.199834, -1.3899742), vec4(5.5573077, -2.4150424, -0.41402522, 0.81533575), vec4(-0.19838761, -8.665485, 1.8881316, 1.0846932), vec4(0.68159187, 1.9176182, 1.9448986, 0.32637742)),
-    mat4(vec4(1.541189, 2.744907, -2.409202, -3.255194), vec4(0.16370825, 0.021742474, 0.0076347045, 0.06370908), vec4(-0.28933865, -0.02309331, 0.009891848, 0.05982188), vec4(2.1720924, 3.9204137, -2.5205986, 0.81907207)),
-    mat4(vec4(-1.9147855, -3.6099176, -0.6726784, -1.253065), vec4(-2.4566364, -6.9067745, 4.8918395, -2.1710742), vec4(0.1385836, 1.9539759, 0.4752808, -0.2570193), vec4(2.742572, 0.3957342, 0.5051741, -1.0210482)),
-    mat4(vec4(1.9162954, 2.059045, -2.5061216, 0.6707573), vec4(-0.04663631, 0.028203119, -0.057964344, 0.0018452917), vec4(0.010741622, 0.047778197, -0.0048850058, -0.0019730802), vec4(3.6878772, 1.181982, -2.1302025, -0.394331)),
-    mat4(vec4(-4.2873454, 4.0037327, -1.2806336, 5.6339912), vec4(-4.2245893, -0.035980005, 4.6360426, -1.0983442), vec4(0.11669542, 2.6384828, 4.021518, -3.4167442), vec4(2.5587585, -0.51070315, -2.116296, 0.7068791)),
-    mat4(vec4(-0.6415181, 5.4087095, -2.7415826, -3.481457), vec4(-0.031237075, 0.027115235, -0.08193817, -0.0057335687), vec4(0.021212518, -0.21955463, 0.016048992, -0.00071349356), vec4(1.9812537, -2.819833, -0.57123965, -0.10751174)),
-    mat4(vec4(-4.632885, -3.490217, 2.5329893, 0.064274155), vec4(-2.6028123, 0.68095744, 0.01846506, 0.16123538), vec4(4.921812, -0.2815728, -0.09549676, 0.04217817), vec4(-1.2647824, -0.13394293, -2.2597103, -3.419232))
+const mat4 NMT_W1[12] = mat4[12](
+    mat4(vec4(1.9524608, 1.0713975, 1.4039351, -1.5217286), vec4(-0.022230538, 0.026557269, 0.06309734, -0.17475322), vec4(0.047427006, -0.00469664, 0.025943926, 0.26743507), vec4(-2.610338, 1.7166722, 8.023302, 0.13859871)),
+    mat4(vec4(-0.31684518, 3.2051063, 1.401991, -2.1894662), vec4(0.04005704, 0.32028624, -0.39842847, -0.66725725), vec4(0.16254476, -0.4127584, 1.1801735, 1.8491927), vec4(-0.22754906, 0.7579889, 0.09157842, -0.87315947)),
+    mat4(vec4(-0.2689073, 0.21747705, -0.13199797, -0.12784465), vec4(2.1772313, 1.1888932, 1.1551433, -0.87760884), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-0.81854665, 1.409713, -0.41876668, -1.3666365), vec4(0.034107465, -0.03685927, -0.1553165, 0.12620565), vec4(0.03321912, 0.0033020813, 0.06593848, -0.007674537), vec4(3.6540296, -2.2724702, 2.8454916, 1.4697961)),
+    mat4(vec4(-2.299097, -2.199256, -5.2893305, 1.9870816), vec4(2.4571347, -0.83326393, -1.4877391, -0.93114316), vec4(-2.7327578, 0.12991856, 0.48797175, 0.47749), vec4(-2.8144898, -1.2780569, 2.2409158, 1.4453955)),
+    mat4(vec4(0.78125113, 2.5927734, 1.0933044, -0.5034421), vec4(-0.24653246, 1.0398772, 0.8146086, 0.2817792), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-1.9260247, 0.85952455, 0.45401737, 1.2723763), vec4(-0.04285044, 0.31560546, 0.017856365, -0.028521825), vec4(-0.052516434, -0.27625632, 0.0510878, -0.0137894405), vec4(1.6011887, 0.12541816, -0.17053595, -0.46624243)),
+    mat4(vec4(-4.574354, 2.887386, 0.074741684, -7.2879086), vec4(-0.31982198, 1.5869461, 1.8657863, -3.0015862), vec4(-0.33059454, -1.782947, 0.9666899, 0.33783144), vec4(0.26441604, -0.5676601, -2.3556285, 2.1970835)),
+    mat4(vec4(1.211836, 0.73746043, 2.4677353, 2.5184371), vec4(-1.1619287, 0.8677148, -1.4660302, 0.62358993), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-0.16088599, -1.5223581, 0.0, 0.0), vec4(-0.0041487496, 0.19258048, 0.0, 0.0), vec4(0.056485593, -0.04926818, 0.0, 0.0), vec4(11.940453, -12.363574, 0.0, 0.0)),
+    mat4(vec4(0.1872992, 2.1171644, 0.0, 0.0), vec4(-2.1300912, 2.1395888, 0.0, 0.0), vec4(0.33336386, -0.8256183, 0.0, 0.0), vec4(2.8348258, -2.3406053, 0.0, 0.0)),
+    mat4(vec4(1.5841515, -6.709348, 0.0, 0.0), vec4(-1.2724476, -0.22252339, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0))
 );
 const mat4 NMT_W2[8] = mat4[8](
-    mat4(vec4(-3.3418725, -4.0855875, 0.77165955, 0.41316321), vec4(-0.35114214, -2.7670434, 2.1249874, 2.197555), vec4(-0.58745646, 3.3334498, 0.70710117, 0.43568578), vec4(-0.25018284, -0.23728038, 0.05269738, 1.0609303)),
-    mat4(vec4(-1.7087882, -0.41349608, -0.08120874, 1.4551854), vec4(-0.40181422, -3.625493, 3.7512345, 1.8275597), vec4(1.7986207, 1.546551, -0.603336, 0.49119824), vec4(-0.57053983, 0.88894725, -0.73311305, -0.07771064)),
-    mat4(vec4(2.9096277, -0.15429012, -1.4159456, -1.1466888), vec4(-0.9994283, 2.6177647, 0.45010838, 1.4062314), vec4(-1.7475772, -3.352449, -0.28202784, -0.8496246), vec4(0.8343176, -0.610604, 1.8189929, 0.8360092)),
-    mat4(vec4(1.4888489, -1.7507061, -2.3789833, -0.33815762), vec4(-0.9610482, -4.7598224, 0.5400893, -0.27676913), vec4(2.1696684, 2.3751001, -0.8185451, -0.39043123), vec4(20.988102, -8.060803, -6.457696, 2.0178878)),
-    mat4(vec4(-1.9192039, 1.2973583, 0.12957217, -2.0995288), vec4(0.13706096, 0.18189034, -0.07957252, -1.3877001), vec4(0.60850334, -0.78841, -0.14115039, -0.776932), vec4(-0.011215124, 0.34320807, 0.14902373, 0.3875658)),
-    mat4(vec4(-0.81812435, 0.94332623, 0.01563329, 0.16517355), vec4(-1.3968968, -0.28342438, -0.29675168, -4.430481), vec4(1.4621456, -2.2371657, -0.68029326, -0.5449462), vec4(-2.476674, -0.56428456, -0.10914541, 0.76484877)),
-    mat4(vec4(-1.0451545, 0.22052269, -0.6172878, 2.7052572), vec4(1.7968506, 0.17819253, 0.08662049, -1.1919606), vec4(-0.8731105, 1.1723455, -0.27935618, 2.347068), vec4(-0.23865318, -1.2344798, 0.30622983, 1.1333549)),
-    mat4(vec4(-0.5555628, 4.491205, 0.045380052, 2.1592524), vec4(2.492795, -0.41927868, -0.5530473, 0.7241723), vec4(1.3377888, 0.7353521, -0.59209406, 1.995464), vec4(2.6316738, -1.2303891, -0.38901335, 9.579925))
-);
-const vec4 NMT_B2[2] = vec4[2](
-    vec4(-0.17192039, 0.17679797, 1.3886025, -1.34472),
-    vec4(2.173804, 0.5498685, 0.17730568, -0.7695141)
+    mat4(vec4(1.2749535, -1.2206278, 0.028193194, 0.8423979), vec4(-1.2200161, 1.2229213, 0.3101811, 0.31512943), vec4(-0.15609749, 1.2058281, -0.41686842, -0.1321389), vec4(0.5738092, 0.32298833, -0.25300327, 0.70333153)),
+    mat4(vec4(-0.9644515, -1.4976041, -0.8924194, 1.031193), vec4(0.09596964, -1.3812109, -0.99426335, -0.7698786), vec4(-0.27224338, 0.49484494, -0.30159897, 1.3121598), vec4(0.40367886, -0.07355354, 0.9684212, 0.15634966)),
+    mat4(vec4(0.31352583, -0.07697483, -0.27615148, 2.0191827), vec4(-0.07209049, 0.2702196, -2.1244931, 0.27906394), vec4(-0.23925827, -0.9513572, 2.03597, 0.32911965), vec4(-2.638307, 1.872359, 1.6225691, -1.4433334)),
+    mat4(vec4(0.02017221, -1.6147795, 0.14303435, 0.83729297), vec4(-0.6862176, -0.44755808, -4.0235376, -0.01778543), vec4(1.0969412, 0.02962239, 1.0639843, 0.49953485), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-0.6739009, 1.4489998, -6.061824, 1.7098606), vec4(1.4577574, -1.8589485, -0.38928428, 0.10030627), vec4(0.01998619, 0.48650917, -1.7238876, -2.6405706), vec4(-1.2022905, -0.27215597, 1.5082463, -0.13863346)),
+    mat4(vec4(-0.6243122, 1.7342827, 0.32260272, 1.9255228), vec4(0.56403655, 1.1141405, -0.71229786, 0.5767114), vec4(0.95821536, -0.49319956, -0.39364746, 0.9515521), vec4(-0.4755803, -1.4792235, 1.0261518, -0.9079893)),
+    mat4(vec4(0.15076402, 1.4911646, 0.30963883, -0.9034152), vec4(-0.1908811, -0.0032071099, 0.75148535, -0.147816), vec4(0.76777065, -1.6563613, 0.27035776, -1.2608712), vec4(-2.4480877, -1.9728118, 0.1101791, -1.0284874)),
+    mat4(vec4(1.7924052, 0.9207351, -0.14314386, 1.8696913), vec4(0.77036667, 1.9583427, 0.1715907, 2.3901844), vec4(-1.3831987, 0.44357684, -0.54849935, 0.33465484), vec4(0.0, 0.0, 0.0, 0.0))
 );
 const vec4 NMT_W3[2] = vec4[2](
-    vec4(-0.50458753, 0.20017031, 0.6225078, -0.7532515),
-    vec4(0.2678952, 0.3193554, -0.35949963, -0.49384788)
+    vec4(-0.62214833, 0.39003918, 0.40604776, -0.75780785),
+    vec4(0.4352812, 0.8156252, -1.98668, -0.6356217)
 );
-const float NMT_B3 = 0.57963055;
+const float NMT_B3 = -0.8207263;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-float nmt_share(mat2x4 f) {
+float nmt_share(mat3x4 f) {
     vec4 h0_0 = f[0];
-    vec4 h0_1 = vec4(f[1].xyz, 1.0);
-    vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4(0.0));
-    vec4 h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4(0.0));
-    vec4 h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4(0.0));
-    vec4 h1_3 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1, vec4(0.0));
-    vec4 h2_0 = max(NMT_B2[0] + NMT_W2[0] * h1_0 + NMT_W2[1] * h1_1 + NMT_W2[2] * h1_2 + NMT_W2[3] * h1_3, vec4(0.0));
-    vec4 h2_1 = max(NMT_B2[1] + NMT_W2[4] * h1_0 + NMT_W2[5] * h1_1 + NMT_W2[6] * h1_2 + NMT_W2[7] * h1_3, vec4(0.0));
+    vec4 h0_1 = f[1];
+    vec4 h0_2 = vec4(f[2].x, 1.0, 0.0, 0.0);
+    vec4 h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1 + NMT_W1[2] * h0_2, vec4(0.0));
+    vec4 h1_1 = max(NMT_W1[3] * h0_0 + NMT_W1[4] * h0_1 + NMT_W1[5] * h0_2, vec4(0.0));
+    vec4 h1_2 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1 + NMT_W1[8] * h0_2, vec4(0.0));
+    vec4 h1_3 = max(NMT_W1[9] * h0_0 + NMT_W1[10] * h0_1 + NMT_W1[11] * h0_2, vec4(0.0)) + vec4(0.0, 0.0, 1.0, 0.0);
+    vec4 h2_0 = max(NMT_W2[0] * h1_0 + NMT_W2[1] * h1_1 + NMT_W2[2] * h1_2 + NMT_W2[3] * h1_3, vec4(0.0));
+    vec4 h2_1 = max(NMT_W2[4] * h1_0 + NMT_W2[5] * h1_1 + NMT_W2[6] * h1_2 + NMT_W2[7] * h1_3, vec4(0.0));
     float logit = NMT_B3 + dot(NMT_W3[0], h2_0) + dot(NMT_W3[1], h2_1);
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-float nmt_transmittance(mat2x4 f) {
+float nmt_transmittance(mat3x4 f) {
     float absorbance = max(exp(min(f[0].z, 40.0)) - 0.05, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
@@ -114,7 +117,7 @@ const uint NMT_HEAVY = 2u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
 const uint NMT_SLOTS = 4u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
-const float NMT_KEY_SCALE = 0.375;
+const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.
 const uint NMT_LAST_ABSORBANCE = 27136u;
 const uint NMT_LAST_DEPTH = (1u << NMT_DEPTH_BITS) - 1u;
@@ -257,6 +260,29 @@ void nmt_core_insert(uint pixel, uvec2 steps, NmtCodes codes) {
     }
 }
 
+// Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
+vec2 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
+    float mean = m1 * 0.9999;
+    float second = m2 * 0.9999 + 3.3333334e-5;
+    float third = m3 * 0.9999;
+    float square = mean * mean;
+    float variance = max(second - square, 1e-7);
+    float per_deviation = 1.0 / sqrt(variance);
+    float per_variance = per_deviation * per_deviation;
+    float skewness = clamp((third - mean * (3.0 * second - 2.0 * square)) * per_variance * per_deviation, -30.0, 30.0);
+    float d = clamp((m4 * 0.9999 + 2e-5 - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square)))
+        * per_variance * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
+    float y = (x - mean) * per_deviation;
+    float q = (y * (y - skewness) - 1.0) / d;
+    float at = 1.0 / (1.0 + y * y + q * q * d);
+    float rest = 1.0 - at;
+    float linear_ = y - q * skewness;
+    float per_root = 1.0 / sqrt(max(linear_ * linear_ - 4.0 * q * (1.0 - q), 1e-12));
+    float between = clamp(0.5 * rest * (1.0 + linear_ * per_root) - at * y * q * per_root, 0.0, rest);
+    float lower = (q < 0.0 ? between : (y > 0.5 * skewness ? rest : 0.0));
+    return vec2(lower, lower + at);
+}
+
 // Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), from the
 // depths and absorbances of the core's fragments and sums over all.
 float nmt_core_weigh(float z, float absorbance, vec4 depths0, vec4 absorbances0, float n, float b0, vec4 moments) {
@@ -336,12 +362,13 @@ float nmt_core_weigh(float z, float absorbance, vec4 depths0, vec4 absorbances0,
         float known = min(exp(-(front_4 + absorbance_of_tail * exact_4)), 1.0);
         return known;
     }
+    vec2 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
     float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
-    return exp(-front_4) * nmt_transmittance(mat2x4(vec4(x, log2(others) * 0.33333334 - 1.0, log(absorbance_of_tail
-        + 0.05), mean), vec4(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean * mean, 1e-6), 0.0,
-        1.0), mean_2, sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2, 1e-6)) - mean_2 * mean_2) / max(1.0 - mean_2
-        * mean_2, 1e-6), 0.0, 1.0)), 0.0)));
+    return exp(-front_4) * nmt_transmittance(mat3x4(vec4(x, log2(others) * 0.33333334 - 1.0, log(absorbance_of_tail
+        + 0.05), bounds.x), vec4(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
+        * mean, 1e-6), 0.0, 1.0), mean_2), vec4(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2, 1e-6)) - mean_2 * mean_2)
+        / max(1.0 - mean_2 * mean_2, 1e-6), 0.0, 1.0)), 0.0, 0.0, 0.0)));
 }
 
 // What a slot stands for: moment depth and absorbance of its fragment, 0 and 0 where it is empty.

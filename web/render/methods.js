@@ -208,9 +208,9 @@ fn total(at: vec2<i32>) -> f32 {
   },
   network("small", "NMT small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
   network("recommended", "NMT recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
-  core("core-small", "NMT core-small", 2, "16-8-1, 248 multiply-adds for what the core does not answer"),
+  core("core-small", "NMT core-small", 2, "14-8-1, 246 multiply-adds for what the core does not answer"),
   core("core", "NMT core", 4, "32-16-1 for what the core does not answer"),
-  core("core-large", "NMT core-large", 6, "32-16-1 for what the core does not answer"),
+  core("core-large", "NMT core-large", 6, "48-24-1 for what the core does not answer"),
 ];
 
 /** A method by its name. */

@@ -5,8 +5,8 @@
 // Target 1: DXGI_FORMAT_R32G32_FLOAT, cleared to 0.
 // Buffer u2, behind the targets, whose slots Direct3D 11 shares with it: 8 words a pixel, cleared to 0.
 //
-// Neural moment transparency: network 'core-large', 7-64-32-1, 2528 multiply-adds.
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 500bdd1b73788fc66ff10d552a69eb2e4c2743194b3d7f70f61bbe24516d5cc9.
+// Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 static const uint NMT_DEPTH_BITS = 16u;
@@ -16,7 +16,7 @@ static const uint NMT_HEAVY = 6u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
 static const uint NMT_SLOTS = 8u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
-static const float NMT_KEY_SCALE = 0.375;
+static const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.
 static const uint NMT_LAST_ABSORBANCE = 27136u;
 static const uint NMT_LAST_DEPTH = (1u << NMT_DEPTH_BITS) - 1u;
@@ -60,6 +60,17 @@ NmtCodes nmt_core_codes(float v0, float v1) {
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.
 float nmt_core_absorbance_of(float alpha) {
     return -log(max(1.0 - alpha, 0.000045399931));
+}
+
+// Steps of a fragment of view depth v.
+uint2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
+    int place = nmt_core_log2(clamp(asint(v), codes.first_bits, codes.last_bits));
+    uint w = uint(place - codes.first_log2) >> codes.shift;
+    uint a = asuint(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return uint2(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
 }
 
 // Moment depth that steps stand for, within (-1, 1).

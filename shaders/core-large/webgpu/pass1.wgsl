@@ -6,8 +6,8 @@
 // Target 1: rg32float, blend add, factors one and one, cleared to 0.
 // Buffer of group 3: 8 words a pixel, cleared to 0.
 //
-// Neural moment transparency: network 'core-large', 7-64-32-1, 2528 multiply-adds.
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 500bdd1b73788fc66ff10d552a69eb2e4c2743194b3d7f70f61bbe24516d5cc9.
+// Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 const NMT_DEPTH_BITS: u32 = 16u;
@@ -17,7 +17,7 @@ const NMT_HEAVY: u32 = 6u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
 const NMT_SLOTS: u32 = 8u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
-const NMT_KEY_SCALE: f32 = 0.375;
+const NMT_KEY_SCALE: f32 = 0.625;
 // The last step of absorbance, that of A = 10.
 const NMT_LAST_ABSORBANCE: u32 = 27136u;
 const NMT_LAST_DEPTH: u32 = (1u << NMT_DEPTH_BITS) - 1u;
@@ -55,6 +55,17 @@ fn nmt_core_codes(v0: f32, v1: f32) -> NmtCodes {
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.
 fn nmt_core_absorbance_of(alpha: f32) -> f32 {
     return -log(max(1.0 - alpha, 0.000045399931));
+}
+
+// Steps of a fragment of view depth v.
+fn nmt_core_steps(v: f32, absorbance: f32, codes: NmtCodes) -> vec2<u32> {
+    let place = nmt_core_log2(clamp(bitcast<i32>(v), codes.first_bits, codes.last_bits));
+    let w = u32(place - codes.first_log2) >> codes.shift;
+    let a = bitcast<u32>(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return vec2<u32>(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
 }
 
 // Moment depth that steps stand for, within (-1, 1).

@@ -3,8 +3,8 @@
 //
 // Textures: target 0 of pass 1, then the target of pass 2.
 //
-// Neural moment transparency: network 'core-small', 7-16-8-1, 248 multiply-adds.
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 5d4deb2f2c8a96ac5dfda935ab5f840b24948e782c8fbc4ba250b79fb256de83.
+// Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -3,56 +3,57 @@
 // Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
 // of pass 1; behind them the buffer of pass 1, as vectors.
 //
-// Neural moment transparency: network 'core-small', 7-16-8-1, 248 multiply-adds.
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 5d4deb2f2c8a96ac5dfda935ab5f840b24948e782c8fbc4ba250b79fb256de83.
+// Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
-const NMT_W1 = array<mat4x4<f32>, 8>(
-    mat4x4<f32>(vec4<f32>(1.4474705f, -2.3140097f, 2.4587274f, -2.0283625f), vec4<f32>(0.025019553f, -0.03455168f, -0.20108078f, -0.3676571f), vec4<f32>(0.02266329f, 0.048362754f, 0.033006392f, 0.4335871f), vec4<f32>(-4.9143996f, 2.5796134f, -2.5119598f, 1.4190323f)),
-    mat4x4<f32>(vec4<f32>(4.1092668f, 4.0608425f, -3.199834f, -1.3899742f), vec4<f32>(5.5573077f, -2.4150424f, -0.41402522f, 0.81533575f), vec4<f32>(-0.19838761f, -8.665485f, 1.8881316f, 1.0846932f), vec4<f32>(0.68159187f, 1.9176182f, 1.9448986f, 0.32637742f)),
-    mat4x4<f32>(vec4<f32>(1.541189f, 2.744907f, -2.409202f, -3.255194f), vec4<f32>(0.16370825f, 0.021742474f, 0.0076347045f, 0.06370908f), vec4<f32>(-0.28933865f, -0.02309331f, 0.009891848f, 0.05982188f), vec4<f32>(2.1720924f, 3.9204137f, -2.5205986f, 0.81907207f)),
-    mat4x4<f32>(vec4<f32>(-1.9147855f, -3.6099176f, -0.6726784f, -1.253065f), vec4<f32>(-2.4566364f, -6.9067745f, 4.8918395f, -2.1710742f), vec4<f32>(0.1385836f, 1.9539759f, 0.4752808f, -0.2570193f), vec4<f32>(2.742572f, 0.3957342f, 0.5051741f, -1.0210482f)),
-    mat4x4<f32>(vec4<f32>(1.9162954f, 2.059045f, -2.5061216f, 0.6707573f), vec4<f32>(-0.04663631f, 0.028203119f, -0.057964344f, 0.0018452917f), vec4<f32>(0.010741622f, 0.047778197f, -0.0048850058f, -0.0019730802f), vec4<f32>(3.6878772f, 1.181982f, -2.1302025f, -0.394331f)),
-    mat4x4<f32>(vec4<f32>(-4.2873454f, 4.0037327f, -1.2806336f, 5.6339912f), vec4<f32>(-4.2245893f, -0.035980005f, 4.6360426f, -1.0983442f), vec4<f32>(0.11669542f, 2.6384828f, 4.021518f, -3.4167442f), vec4<f32>(2.5587585f, -0.51070315f, -2.116296f, 0.7068791f)),
-    mat4x4<f32>(vec4<f32>(-0.6415181f, 5.4087095f, -2.7415826f, -3.481457f), vec4<f32>(-0.031237075f, 0.027115235f, -0.08193817f, -0.0057335687f), vec4<f32>(0.021212518f, -0.21955463f, 0.016048992f, -0.00071349356f), vec4<f32>(1.9812537f, -2.819833f, -0.57123965f, -0.10751174f)),
-    mat4x4<f32>(vec4<f32>(-4.632885f, -3.490217f, 2.5329893f, 0.064274155f), vec4<f32>(-2.6028123f, 0.68095744f, 0.01846506f, 0.16123538f), vec4<f32>(4.921812f, -0.2815728f, -0.09549676f, 0.04217817f), vec4<f32>(-1.2647824f, -0.13394293f, -2.2597103f, -3.419232f))
+const NMT_W1 = array<mat4x4<f32>, 12>(
+    mat4x4<f32>(vec4<f32>(1.9524608f, 1.0713975f, 1.4039351f, -1.5217286f), vec4<f32>(-0.022230538f, 0.026557269f, 0.06309734f, -0.17475322f), vec4<f32>(0.047427006f, -0.00469664f, 0.025943926f, 0.26743507f), vec4<f32>(-2.610338f, 1.7166722f, 8.023302f, 0.13859871f)),
+    mat4x4<f32>(vec4<f32>(-0.31684518f, 3.2051063f, 1.401991f, -2.1894662f), vec4<f32>(0.04005704f, 0.32028624f, -0.39842847f, -0.66725725f), vec4<f32>(0.16254476f, -0.4127584f, 1.1801735f, 1.8491927f), vec4<f32>(-0.22754906f, 0.7579889f, 0.09157842f, -0.87315947f)),
+    mat4x4<f32>(vec4<f32>(-0.2689073f, 0.21747705f, -0.13199797f, -0.12784465f), vec4<f32>(2.1772313f, 1.1888932f, 1.1551433f, -0.87760884f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-0.81854665f, 1.409713f, -0.41876668f, -1.3666365f), vec4<f32>(0.034107465f, -0.03685927f, -0.1553165f, 0.12620565f), vec4<f32>(0.03321912f, 0.0033020813f, 0.06593848f, -0.007674537f), vec4<f32>(3.6540296f, -2.2724702f, 2.8454916f, 1.4697961f)),
+    mat4x4<f32>(vec4<f32>(-2.299097f, -2.199256f, -5.2893305f, 1.9870816f), vec4<f32>(2.4571347f, -0.83326393f, -1.4877391f, -0.93114316f), vec4<f32>(-2.7327578f, 0.12991856f, 0.48797175f, 0.47749f), vec4<f32>(-2.8144898f, -1.2780569f, 2.2409158f, 1.4453955f)),
+    mat4x4<f32>(vec4<f32>(0.78125113f, 2.5927734f, 1.0933044f, -0.5034421f), vec4<f32>(-0.24653246f, 1.0398772f, 0.8146086f, 0.2817792f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-1.9260247f, 0.85952455f, 0.45401737f, 1.2723763f), vec4<f32>(-0.04285044f, 0.31560546f, 0.017856365f, -0.028521825f), vec4<f32>(-0.052516434f, -0.27625632f, 0.0510878f, -0.0137894405f), vec4<f32>(1.6011887f, 0.12541816f, -0.17053595f, -0.46624243f)),
+    mat4x4<f32>(vec4<f32>(-4.574354f, 2.887386f, 0.074741684f, -7.2879086f), vec4<f32>(-0.31982198f, 1.5869461f, 1.8657863f, -3.0015862f), vec4<f32>(-0.33059454f, -1.782947f, 0.9666899f, 0.33783144f), vec4<f32>(0.26441604f, -0.5676601f, -2.3556285f, 2.1970835f)),
+    mat4x4<f32>(vec4<f32>(1.211836f, 0.73746043f, 2.4677353f, 2.5184371f), vec4<f32>(-1.1619287f, 0.8677148f, -1.4660302f, 0.62358993f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-0.16088599f, -1.5223581f, 0.0f, 0.0f), vec4<f32>(-0.0041487496f, 0.19258048f, 0.0f, 0.0f), vec4<f32>(0.056485593f, -0.04926818f, 0.0f, 0.0f), vec4<f32>(11.940453f, -12.363574f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(0.1872992f, 2.1171644f, 0.0f, 0.0f), vec4<f32>(-2.1300912f, 2.1395888f, 0.0f, 0.0f), vec4<f32>(0.33336386f, -0.8256183f, 0.0f, 0.0f), vec4<f32>(2.8348258f, -2.3406053f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(1.5841515f, -6.709348f, 0.0f, 0.0f), vec4<f32>(-1.2724476f, -0.22252339f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
 );
 const NMT_W2 = array<mat4x4<f32>, 8>(
-    mat4x4<f32>(vec4<f32>(-3.3418725f, -4.0855875f, 0.77165955f, 0.41316321f), vec4<f32>(-0.35114214f, -2.7670434f, 2.1249874f, 2.197555f), vec4<f32>(-0.58745646f, 3.3334498f, 0.70710117f, 0.43568578f), vec4<f32>(-0.25018284f, -0.23728038f, 0.05269738f, 1.0609303f)),
-    mat4x4<f32>(vec4<f32>(-1.7087882f, -0.41349608f, -0.08120874f, 1.4551854f), vec4<f32>(-0.40181422f, -3.625493f, 3.7512345f, 1.8275597f), vec4<f32>(1.7986207f, 1.546551f, -0.603336f, 0.49119824f), vec4<f32>(-0.57053983f, 0.88894725f, -0.73311305f, -0.07771064f)),
-    mat4x4<f32>(vec4<f32>(2.9096277f, -0.15429012f, -1.4159456f, -1.1466888f), vec4<f32>(-0.9994283f, 2.6177647f, 0.45010838f, 1.4062314f), vec4<f32>(-1.7475772f, -3.352449f, -0.28202784f, -0.8496246f), vec4<f32>(0.8343176f, -0.610604f, 1.8189929f, 0.8360092f)),
-    mat4x4<f32>(vec4<f32>(1.4888489f, -1.7507061f, -2.3789833f, -0.33815762f), vec4<f32>(-0.9610482f, -4.7598224f, 0.5400893f, -0.27676913f), vec4<f32>(2.1696684f, 2.3751001f, -0.8185451f, -0.39043123f), vec4<f32>(20.988102f, -8.060803f, -6.457696f, 2.0178878f)),
-    mat4x4<f32>(vec4<f32>(-1.9192039f, 1.2973583f, 0.12957217f, -2.0995288f), vec4<f32>(0.13706096f, 0.18189034f, -0.07957252f, -1.3877001f), vec4<f32>(0.60850334f, -0.78841f, -0.14115039f, -0.776932f), vec4<f32>(-0.011215124f, 0.34320807f, 0.14902373f, 0.3875658f)),
-    mat4x4<f32>(vec4<f32>(-0.81812435f, 0.94332623f, 0.01563329f, 0.16517355f), vec4<f32>(-1.3968968f, -0.28342438f, -0.29675168f, -4.430481f), vec4<f32>(1.4621456f, -2.2371657f, -0.68029326f, -0.5449462f), vec4<f32>(-2.476674f, -0.56428456f, -0.10914541f, 0.76484877f)),
-    mat4x4<f32>(vec4<f32>(-1.0451545f, 0.22052269f, -0.6172878f, 2.7052572f), vec4<f32>(1.7968506f, 0.17819253f, 0.08662049f, -1.1919606f), vec4<f32>(-0.8731105f, 1.1723455f, -0.27935618f, 2.347068f), vec4<f32>(-0.23865318f, -1.2344798f, 0.30622983f, 1.1333549f)),
-    mat4x4<f32>(vec4<f32>(-0.5555628f, 4.491205f, 0.045380052f, 2.1592524f), vec4<f32>(2.492795f, -0.41927868f, -0.5530473f, 0.7241723f), vec4<f32>(1.3377888f, 0.7353521f, -0.59209406f, 1.995464f), vec4<f32>(2.6316738f, -1.2303891f, -0.38901335f, 9.579925f))
-);
-const NMT_B2 = array<vec4<f32>, 2>(
-    vec4<f32>(-0.17192039f, 0.17679797f, 1.3886025f, -1.34472f),
-    vec4<f32>(2.173804f, 0.5498685f, 0.17730568f, -0.7695141f)
+    mat4x4<f32>(vec4<f32>(1.2749535f, -1.2206278f, 0.028193194f, 0.8423979f), vec4<f32>(-1.2200161f, 1.2229213f, 0.3101811f, 0.31512943f), vec4<f32>(-0.15609749f, 1.2058281f, -0.41686842f, -0.1321389f), vec4<f32>(0.5738092f, 0.32298833f, -0.25300327f, 0.70333153f)),
+    mat4x4<f32>(vec4<f32>(-0.9644515f, -1.4976041f, -0.8924194f, 1.031193f), vec4<f32>(0.09596964f, -1.3812109f, -0.99426335f, -0.7698786f), vec4<f32>(-0.27224338f, 0.49484494f, -0.30159897f, 1.3121598f), vec4<f32>(0.40367886f, -0.07355354f, 0.9684212f, 0.15634966f)),
+    mat4x4<f32>(vec4<f32>(0.31352583f, -0.07697483f, -0.27615148f, 2.0191827f), vec4<f32>(-0.07209049f, 0.2702196f, -2.1244931f, 0.27906394f), vec4<f32>(-0.23925827f, -0.9513572f, 2.03597f, 0.32911965f), vec4<f32>(-2.638307f, 1.872359f, 1.6225691f, -1.4433334f)),
+    mat4x4<f32>(vec4<f32>(0.02017221f, -1.6147795f, 0.14303435f, 0.83729297f), vec4<f32>(-0.6862176f, -0.44755808f, -4.0235376f, -0.01778543f), vec4<f32>(1.0969412f, 0.02962239f, 1.0639843f, 0.49953485f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-0.6739009f, 1.4489998f, -6.061824f, 1.7098606f), vec4<f32>(1.4577574f, -1.8589485f, -0.38928428f, 0.10030627f), vec4<f32>(0.01998619f, 0.48650917f, -1.7238876f, -2.6405706f), vec4<f32>(-1.2022905f, -0.27215597f, 1.5082463f, -0.13863346f)),
+    mat4x4<f32>(vec4<f32>(-0.6243122f, 1.7342827f, 0.32260272f, 1.9255228f), vec4<f32>(0.56403655f, 1.1141405f, -0.71229786f, 0.5767114f), vec4<f32>(0.95821536f, -0.49319956f, -0.39364746f, 0.9515521f), vec4<f32>(-0.4755803f, -1.4792235f, 1.0261518f, -0.9079893f)),
+    mat4x4<f32>(vec4<f32>(0.15076402f, 1.4911646f, 0.30963883f, -0.9034152f), vec4<f32>(-0.1908811f, -0.0032071099f, 0.75148535f, -0.147816f), vec4<f32>(0.76777065f, -1.6563613f, 0.27035776f, -1.2608712f), vec4<f32>(-2.4480877f, -1.9728118f, 0.1101791f, -1.0284874f)),
+    mat4x4<f32>(vec4<f32>(1.7924052f, 0.9207351f, -0.14314386f, 1.8696913f), vec4<f32>(0.77036667f, 1.9583427f, 0.1715907f, 2.3901844f), vec4<f32>(-1.3831987f, 0.44357684f, -0.54849935f, 0.33465484f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
 );
 const NMT_W3 = array<vec4<f32>, 2>(
-    vec4<f32>(-0.50458753f, 0.20017031f, 0.6225078f, -0.7532515f),
-    vec4<f32>(0.2678952f, 0.3193554f, -0.35949963f, -0.49384788f)
+    vec4<f32>(-0.62214833f, 0.39003918f, 0.40604776f, -0.75780785f),
+    vec4<f32>(0.4352812f, 0.8156252f, -1.98668f, -0.6356217f)
 );
-const NMT_B3: f32 = 0.57963055f;
+const NMT_B3: f32 = -0.8207263f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
-fn nmt_share(f: mat2x4<f32>) -> f32 {
+fn nmt_share(f: mat3x4<f32>) -> f32 {
     let h0_0 = f[0];
-    let h0_1 = vec4<f32>(f[1].xyz, 1.0f);
-    let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1, vec4<f32>(0.0f));
-    let h1_1 = max(NMT_W1[2] * h0_0 + NMT_W1[3] * h0_1, vec4<f32>(0.0f));
-    let h1_2 = max(NMT_W1[4] * h0_0 + NMT_W1[5] * h0_1, vec4<f32>(0.0f));
-    let h1_3 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1, vec4<f32>(0.0f));
-    let h2_0 = max(NMT_B2[0] + NMT_W2[0] * h1_0 + NMT_W2[1] * h1_1 + NMT_W2[2] * h1_2 + NMT_W2[3] * h1_3, vec4<f32>(0.0f));
-    let h2_1 = max(NMT_B2[1] + NMT_W2[4] * h1_0 + NMT_W2[5] * h1_1 + NMT_W2[6] * h1_2 + NMT_W2[7] * h1_3, vec4<f32>(0.0f));
+    let h0_1 = f[1];
+    let h0_2 = vec4<f32>(f[2].x, 1.0f, 0.0f, 0.0f);
+    let h1_0 = max(NMT_W1[0] * h0_0 + NMT_W1[1] * h0_1 + NMT_W1[2] * h0_2, vec4<f32>(0.0f));
+    let h1_1 = max(NMT_W1[3] * h0_0 + NMT_W1[4] * h0_1 + NMT_W1[5] * h0_2, vec4<f32>(0.0f));
+    let h1_2 = max(NMT_W1[6] * h0_0 + NMT_W1[7] * h0_1 + NMT_W1[8] * h0_2, vec4<f32>(0.0f));
+    let h1_3 = max(NMT_W1[9] * h0_0 + NMT_W1[10] * h0_1 + NMT_W1[11] * h0_2, vec4<f32>(0.0f)) + vec4<f32>(0.0f, 0.0f, 1.0f, 0.0f);
+    let h2_0 = max(NMT_W2[0] * h1_0 + NMT_W2[1] * h1_1 + NMT_W2[2] * h1_2 + NMT_W2[3] * h1_3, vec4<f32>(0.0f));
+    let h2_1 = max(NMT_W2[4] * h1_0 + NMT_W2[5] * h1_1 + NMT_W2[6] * h1_2 + NMT_W2[7] * h1_3, vec4<f32>(0.0f));
     let logit = NMT_B3 + dot(NMT_W3[0], h2_0) + dot(NMT_W3[1], h2_1);
     return 1.0 / (1.0 + exp(min(-logit, 80.0)));
 }
 
 // Transmittance in front of the fragment with features f, in [0, 1].
-fn nmt_transmittance(f: mat2x4<f32>) -> f32 {
+fn nmt_transmittance(f: mat3x4<f32>) -> f32 {
     let absorbance = max(exp(min(f[0].z, 40.0f)) - 0.05f, 0.0);
     return exp(-min(absorbance * nmt_share(f), 80.0));
 }
@@ -64,7 +65,7 @@ const NMT_HEAVY: u32 = 2u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
 const NMT_SLOTS: u32 = 4u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
-const NMT_KEY_SCALE: f32 = 0.375;
+const NMT_KEY_SCALE: f32 = 0.625;
 // The last step of absorbance, that of A = 10.
 const NMT_LAST_ABSORBANCE: u32 = 27136u;
 const NMT_LAST_DEPTH: u32 = (1u << NMT_DEPTH_BITS) - 1u;
@@ -137,6 +138,29 @@ fn nmt_core_heavy_steps(code: u32, codes: NmtCodes) -> vec2<u32> {
     let nearness = code & NMT_LAST_DEPTH;
     let key = code >> NMT_DEPTH_BITS;
     return vec2<u32>(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
+}
+
+// Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
+fn nmt_core_bounds(x: f32, m1: f32, m2: f32, m3: f32, m4: f32) -> vec2<f32> {
+    let mean = m1 * 0.9999;
+    let second = m2 * 0.9999 + 3.3333334e-5;
+    let third = m3 * 0.9999;
+    let square = mean * mean;
+    let variance = max(second - square, 1e-7);
+    let per_deviation = 1.0 / sqrt(variance);
+    let per_variance = per_deviation * per_deviation;
+    let skewness = clamp((third - mean * (3.0 * second - 2.0 * square)) * per_variance * per_deviation, -30.0, 30.0);
+    let d = clamp((m4 * 0.9999 + 2e-5 - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square))) * per_variance
+        * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
+    let y = (x - mean) * per_deviation;
+    let q = (y * (y - skewness) - 1.0) / d;
+    let at = 1.0 / (1.0 + y * y + q * q * d);
+    let rest = 1.0 - at;
+    let linear_ = y - q * skewness;
+    let per_root = 1.0 / sqrt(max(linear_ * linear_ - 4.0 * q * (1.0 - q), 1e-12));
+    let between = clamp(0.5 * rest * (1.0 + linear_ * per_root) - at * y * q * per_root, 0.0, rest);
+    let lower = select(select(0.0, rest, y > 0.5 * skewness), between, 0.0 > q);
+    return vec2<f32>(lower, lower + at);
 }
 
 // Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), from the
@@ -219,12 +243,13 @@ fn nmt_core_weigh(z: f32, absorbance: f32, depths0: vec4<f32>, absorbances0: vec
         let known = min(exp(-(front_4 + absorbance_of_tail * exact_4)), 1.0);
         return known;
     }
+    let bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     let mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
     let mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
-    return exp(-front_4) * nmt_transmittance(mat2x4<f32>(vec4<f32>(x, log2(others) * 0.33333334 - 1.0,
-        log(absorbance_of_tail + 0.05), mean), vec4<f32>(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0
-        - mean * mean, 1e-6), 0.0, 1.0), mean_2, sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2, 1e-6)) - mean_2 * mean_2)
-        / max(1.0 - mean_2 * mean_2, 1e-6), 0.0, 1.0)), 0.0)));
+    return exp(-front_4) * nmt_transmittance(mat3x4<f32>(vec4<f32>(x, log2(others) * 0.33333334 - 1.0,
+        log(absorbance_of_tail + 0.05), bounds.x), vec4<f32>(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
+        * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0), mean_2), vec4<f32>(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0
+        - m2, 1e-6)) - mean_2 * mean_2) / max(1.0 - mean_2 * mean_2, 1e-6), 0.0, 1.0)), 0.0, 0.0, 0.0)));
 }
 
 // What a slot stands for: moment depth and absorbance of its fragment, 0 and 0 where it is empty.

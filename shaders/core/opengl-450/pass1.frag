@@ -7,8 +7,8 @@
 // Storage buffer at binding 0: 8 words a pixel, cleared to 0; a barrier with GL_SHADER_STORAGE_BARRIER_BIT between
 // the passes.
 //
-// Neural moment transparency: network 'core', 7-32-16-1, 752 multiply-adds.
-// Provenance: nmt 0.1.0, commit a626ea857e68, backend fused, seed 1, epochs 300, dataset 3092f67416d8b5bbb367e1c26a4ab05adc3607e46d8419bd3e02d6ef6371f815.
+// Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
+// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 const uint NMT_DEPTH_BITS = 16u;
@@ -18,7 +18,7 @@ const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
 const uint NMT_SLOTS = 8u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
-const float NMT_KEY_SCALE = 0.375;
+const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.
 const uint NMT_LAST_ABSORBANCE = 27136u;
 const uint NMT_LAST_DEPTH = (1u << NMT_DEPTH_BITS) - 1u;
@@ -56,6 +56,17 @@ NmtCodes nmt_core_codes(float v0, float v1) {
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.
 float nmt_core_absorbance_of(float alpha) {
     return -log(max(1.0 - alpha, 0.000045399931));
+}
+
+// Steps of a fragment of view depth v.
+uvec2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
+    int place = nmt_core_log2(clamp(floatBitsToInt(v), codes.first_bits, codes.last_bits));
+    uint w = uint(place - codes.first_log2) >> codes.shift;
+    uint a = floatBitsToUint(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return uvec2(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
 }
 
 // Moment depth that steps stand for, within (-1, 1).

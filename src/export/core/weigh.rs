@@ -9,8 +9,8 @@ use crate::export::dialect::{Glsl, Hlsl, Wgsl};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
-    absorbance_feature, absorbance_of, count_feature, described, normalised, place_noise, recentred, share_by_law,
-    share_of_one, share_of_two, transmittance, without,
+    absorbance_of, described, fixed_features, normalised, place_noise, recentred, share_by_law, share_of_one,
+    share_of_two, transmittance, without,
 };
 use crate::model::Mlp;
 use crate::numeric::real::{Constant, Real, c};
@@ -172,7 +172,7 @@ struct Query<R: Real, const N: usize> {
 impl<R: Real, const N: usize> Query<R, N> {
     /// What a network is asked, in the order of the feature set's columns.
     fn features(&self) -> Vec<R> {
-        let fixed = [self.x, count_feature(self.count), absorbance_feature(self.tail)];
+        let fixed = fixed_features(self.x, self.count, self.tail, self.m);
         fixed.into_iter().chain(described(self.m).into_iter().skip(1)).collect()
     }
 }

@@ -2,10 +2,11 @@
 
 use super::code::{Codes, CoreFragment, EMPTY, MAX_SLOTS, Slot};
 use super::formulas::{
-    absorbance_feature, absorbance_of, count_feature, described, normalised, place_noise, recentred, share_of_one,
+    absorbance_of, bounds_noise, described, fixed_features, normalised, place_noise, recentred, share_of_one,
     share_of_two, without,
 };
 use super::{CoreSet, FIXED};
+use crate::numeric::real::{Real, c};
 use crate::pixel::{Pixel, absorbance};
 
 /// A pixel after pass 1: N = M + 1 sums.
@@ -38,8 +39,16 @@ impl<const N: usize> Sums<N> {
         }
         codes.insert(&mut self.slots[..slots], fragment);
         self.count += 1;
-        let z = codes.moment_depth(fragment.depth_step);
-        let mut term = codes.absorbance(fragment.absorbance_step);
+        self.add_moments(
+            codes.moment_depth(fragment.depth_step),
+            codes.absorbance(fragment.absorbance_step),
+        );
+    }
+
+    /// Adds the moments of a fragment.
+    #[inline(always)]
+    pub fn add_moments(&mut self, z: f32, absorbance: f32) {
+        let mut term = absorbance;
         for b in &mut self.b {
             *b += term;
             term *= z;
@@ -58,26 +67,41 @@ pub enum Answer<const N: usize> {
 
 /// A fragment and the tail that it sees.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Query<const N: usize> {
+pub struct Query<const N: usize, R = f32> {
     /// Absorbance of the core in front.
-    pub front: f32,
+    pub front: R,
     /// Absorbance of the tail, b_0''.
-    pub tail: f32,
-    /// x, count, ln_b0.
-    pub fixed: [f32; FIXED],
+    pub tail: R,
+    /// x, count, ln_b0, lower, upper.
+    pub fixed: [R; FIXED],
     /// 1, then means and spreads.
-    pub described: [f32; N],
+    pub described: [R; N],
+}
+
+/// What pass 2 knows of fragments side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answers<const N: usize, R: Real> {
+    /// Whether the optical depth in front is known without a network.
+    pub is_known: R::Mask,
+    /// The optical depth where it is.
+    pub depth: R,
+    /// The tail that must be shared out where it is not.
+    pub query: Query<N, R>,
 }
 
 /// A pixel between the passes: the core in order of depth, and the tail's sums in the pixel's own range.
 #[derive(Debug, Clone, Copy)]
 pub struct Between<const N: usize> {
     core: [CoreFragment; MAX_SLOTS],
+    /// Moment depth and absorbance of each.
+    z: [f32; MAX_SLOTS],
     absorbance: [f32; MAX_SLOTS],
     len: usize,
     /// Fragments of the tail.
     count: u32,
     farthest: u32,
+    /// Moment depths of the nearest and the farthest.
+    ends: [f32; 2],
     total: f32,
     tail: [f32; N],
     center: f32,
@@ -110,11 +134,13 @@ impl<const N: usize> Between<N> {
         let (center, per_h) = (0.5 * (ends[0] + ends[1]), 1.0 / h);
         core[..len].sort_unstable();
         Self {
+            z: core.map(|fragment| codes.moment_depth(fragment.depth_step)),
             absorbance: core.map(|fragment| codes.absorbance(fragment.absorbance_step)),
             core,
             len,
             count: sums.count - len as u32,
             farthest,
+            ends,
             total: sums.b[0],
             tail: recentred(tail, center, per_h),
             center,
@@ -169,9 +195,78 @@ impl<const N: usize> Between<N> {
         Answer::Query(Query {
             front,
             tail: absorbance,
-            fixed: [x, count_feature(count as f32), absorbance_feature(absorbance)],
+            fixed: fixed_features(x, count as f32, absorbance, m),
             described: described(m),
         })
+    }
+}
+
+impl<const N: usize> Between<N> {
+    /// [`Self::answer`] without branches, for fragments side by side: their moment depths and absorbances as their
+    /// steps have them.
+    #[inline(always)]
+    pub fn answers<R: Real>(&self, z: R, absorbance: R) -> Answers<N, R> {
+        let number = |value: f32| z.like(value.into());
+        let (zero, one) = (number(0.0), number(1.0));
+        let (mut front, mut in_core) = (zero, zero);
+        for (&core_z, &core_absorbance) in self.z[..self.len].iter().zip(&self.absorbance) {
+            let (core_z, core_absorbance) = (number(core_z), number(core_absorbance));
+            front += R::select(core_z.lt(z), core_absorbance, zero);
+            in_core = R::select(core_z.eq(z) & core_absorbance.eq(absorbance), one, in_core);
+        }
+        if self.count == 0 {
+            // All of them are in the core, or absorb nothing.
+            return Answers {
+                is_known: zero.eq(zero),
+                depth: front,
+                query: Query {
+                    front,
+                    tail: zero,
+                    fixed: [zero; FIXED],
+                    described: [zero; N],
+                },
+            };
+        }
+        let removed = R::select(in_core.eq(zero), absorbance, zero);
+        let count = number(self.count as f32) - R::select(removed.gt(zero), one, zero);
+        let x = ((z - number(self.center)) * number(self.per_h)).clamp(c(-1.0), c(1.0));
+        let tail = without(self.tail.map(number), removed, x);
+        let absorbance = absorbance_of(tail);
+        let m = normalised(tail);
+        let (is_nearest, is_farthest) = (z.le(number(self.ends[0])), z.ge(number(self.ends[1])));
+        let (mut is_known, mut share) = (is_nearest | is_farthest, zero);
+        if self.count <= 3 {
+            let noise = place_noise(number(self.total), absorbance, number(self.center), number(self.per_h));
+            let step = number(self.step);
+            share = share_of_one(x, m[1], step, noise);
+            is_known = is_known | count.lt(c(1.5));
+            if N > 3 {
+                let two = share_of_two(x, [m[1], m[2], m[3.min(N - 1)]], step, noise);
+                share = R::select(count.gt(c(1.5)), two, share);
+                is_known = is_known | count.lt(c(2.5));
+            }
+        }
+        share = R::select(is_farthest, one, share);
+        share = R::select(is_nearest | count.lt(c(0.5)), zero, share);
+        Answers {
+            is_known,
+            depth: front + absorbance * share,
+            query: Query {
+                front,
+                tail: absorbance,
+                fixed: fixed_features(x, count, absorbance, m),
+                described: described(m),
+            },
+        }
+    }
+
+    /// How far rounding of the sums may have moved the bounds of a fragment's tail.
+    #[inline(always)]
+    pub fn bounds_noise<R: Real>(&self, query: &Query<N, R>) -> R {
+        let number = |value: f32| query.tail.like(value.into());
+        let range = [number(self.center), number(self.per_h)];
+        let described = [1, 2.min(N - 1)].map(|k| query.described[k]);
+        bounds_noise::<R, N>(number(self.total), query.tail, range, described)
     }
 }
 
@@ -373,12 +468,12 @@ mod tests {
                     Answer::Query(Query {
                         front,
                         tail,
-                        fixed: [x, count, ln_b0],
+                        fixed: [x, count, ln_b0, lower, upper],
                         described,
                     }) => {
                         assert!(front >= 0.0 && tail >= 0.0 && front.is_finite() && tail.is_finite());
                         assert!((-1.0..=1.0).contains(&x) && (-1.0..2.0).contains(&count), "{x} {count}");
-                        assert!(ln_b0.is_finite());
+                        assert!(ln_b0.is_finite() && 0.0 <= lower && lower <= upper && upper <= 1.000_001);
                         assert!(described.iter().all(|m| (-1.0..=1.0).contains(m)), "{described:?}");
                     }
                 }
