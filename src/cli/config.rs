@@ -1,6 +1,7 @@
 //! The configuration file.
 
 use crate::dataset::DatasetConfig;
+use crate::features::colour::ColourSet;
 use crate::model::mlp::check_name;
 use crate::numeric::file::{read, without_mark};
 use crate::synth::SynthConfig;
@@ -61,6 +62,36 @@ fn merge(base: &mut Table, changes: Table) {
     }
 }
 
+/// What a file says, and where it extends another, what that one says besides.
+pub fn whole(path: &Path) -> anyhow::Result<Table> {
+    let parsed = |path: &Path| -> anyhow::Result<Table> {
+        toml::from_str(&text_of(path)?).map_err(|e| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end()))
+    };
+    let mut changes = parsed(path)?;
+    let Some(base) = changes.remove("extends") else {
+        return Ok(changes);
+    };
+    let Some(base) = base.as_str() else {
+        bail!("{}: extends = {base}: must be the name of a file", path.display());
+    };
+    let base = path.with_file_name(base);
+    let mut whole = parsed(&base)?;
+    if whole.contains_key("extends") {
+        bail!(
+            "{}: extends another file itself; only one step is followed",
+            base.display()
+        );
+    }
+    merge(&mut whole, changes);
+    Ok(whole)
+}
+
+/// The set of a network that answers with a pixel's colour, where the file is about one.
+pub fn colour_set(whole: &Table) -> Option<ColourSet> {
+    let name = whole.get("dataset")?.get("features")?.as_str()?;
+    ColourSet::ALL.into_iter().find(|set| set.name() == name)
+}
+
 /// How the final error is measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -83,23 +114,19 @@ impl Config {
             |path: &Path, e: toml::de::Error| anyhow::anyhow!("{}: {}", path.display(), e.to_string().trim_end());
         let text = text_of(path)?;
         let head: Head = toml::from_str(&text).map_err(|e| wrong(path, e))?;
+        let whole = whole(path)?;
+        if let Some(set) = colour_set(&whole) {
+            bail!(
+                "{}: dataset.features = '{}' is a network that answers with a pixel's colour; 'nmt train' trains it, \
+                    and no other command takes it",
+                path.display(),
+                set.name()
+            );
+        }
         let config: Self = match head.extends {
             // Straight from the text, so that errors show the place.
             None => toml::from_str(&text).map_err(|e| wrong(path, e))?,
-            Some(base) => {
-                let base = path.with_file_name(base);
-                let mut whole: Table = toml::from_str(&text_of(&base)?).map_err(|e| wrong(&base, e))?;
-                if whole.contains_key("extends") {
-                    bail!(
-                        "{}: extends another file itself; only one step is followed",
-                        base.display()
-                    );
-                }
-                let mut changes: Table = toml::from_str(&text).map_err(|e| wrong(path, e))?;
-                changes.remove("extends");
-                merge(&mut whole, changes);
-                whole.try_into().map_err(|e| wrong(path, e))?
-            }
+            Some(_) => whole.try_into().map_err(|e| wrong(path, e))?,
         };
         config.validate().with_context(|| path.display().to_string())?;
         Ok(config)

@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod colour;
 mod config;
 mod evaluate;
 mod examples;

@@ -1,5 +1,6 @@
 //! `nmt train`
 
+use super::colour::{self, ColourConfig};
 use super::config::Config;
 use super::ui::Ui;
 use super::{Verdict, generate, interrupt, keep_inputs};
@@ -18,15 +19,15 @@ use std::time::Instant;
 #[derive(Args)]
 pub struct Train {
     /// Configuration file.
-    config: PathBuf,
+    pub(super) config: PathBuf,
     /// Model file to write.
     #[arg(long, value_name = "MODEL.json")]
-    out: PathBuf,
+    pub(super) out: PathBuf,
     /// Dataset that `nmt generate` wrote; without it the configured one is generated in memory.
     #[arg(long, value_name = "DIR")]
-    dataset: Option<PathBuf>,
+    pub(super) dataset: Option<PathBuf>,
     #[command(flatten)]
-    options: TrainOptions,
+    pub(super) options: TrainOptions,
 }
 
 /// Options that `train` and `run` share.
@@ -111,6 +112,9 @@ impl TrainOptions {
 impl Train {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.options.force { Replace::Yes } else { Replace::No };
+        if let Some(config) = ColourConfig::load(&self.config)? {
+            return colour::train(config, &self, replace, ui);
+        }
         let config = self.options.configure(&self.config)?;
         keep_inputs(&[&self.config], &self.out)?;
         // Before anything is looked at that another training may be about to write.

@@ -7,22 +7,24 @@ use rayon::prelude::*;
 /// Blocks that one task moves: enough to outweigh handing them over.
 const TASK: usize = 512;
 
-/// Rows in blocks of sixteen. A block holds W columns of features, then the targets, then the weights; rows that fill
-/// up the last block weigh 0.
+/// Rows in blocks of sixteen. A block holds W columns of features, a column of targets an output of the network, then
+/// the weights; rows that fill up the last block weigh 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocks {
     width: usize,
+    outputs: usize,
     rows: usize,
     data: Vec<Lanes>,
 }
 
 impl Blocks {
-    /// `rows` rows of `width` features, all of them zeros that weigh nothing.
-    pub fn zeros(width: usize, rows: usize) -> Self {
+    /// `rows` rows of `width` features and so many targets, all of them zeros that weigh nothing.
+    pub fn zeros(width: usize, outputs: usize, rows: usize) -> Self {
         Self {
             width,
+            outputs,
             rows,
-            data: vec![Lanes::ZERO; rows.div_ceil(LANES) * (width + 2)],
+            data: vec![Lanes::ZERO; rows.div_ceil(LANES) * (width + outputs + 1)],
         }
     }
 
@@ -31,7 +33,7 @@ impl Blocks {
     /// # Panics
     /// If an index is out of range.
     pub fn of(rows: &Rows, order: &[u32]) -> Self {
-        Self::from_fn(rows.feature_set.width(), 0, order.len(), |at| {
+        Self::from_fn(rows.feature_set.width(), 1, 0, order.len(), |at| {
             rows.row(order[at] as usize)
         })
     }
@@ -39,9 +41,15 @@ impl Blocks {
     /// `lead` rows that weigh nothing, then `rows` rows as `row` gives them for 0, 1, ..; on all cores.
     ///
     /// # Panics
-    /// If a row is not `width` wide.
-    pub fn from_fn<'a>(width: usize, lead: usize, rows: usize, row: impl Fn(usize) -> Row<'a> + Sync) -> Self {
-        let mut blocks = Self::zeros(width, lead + rows);
+    /// If a row is not `width` wide, or has not so many targets.
+    pub fn from_fn<'a>(
+        width: usize,
+        outputs: usize,
+        lead: usize,
+        rows: usize,
+        row: impl Fn(usize) -> Row<'a> + Sync,
+    ) -> Self {
+        let mut blocks = Self::zeros(width, outputs, lead + rows);
         let columns = blocks.columns();
         blocks
             .data
@@ -53,11 +61,13 @@ impl Blocks {
                     for at in start.max(lead)..(start + LANES).min(lead + rows) {
                         let Row {
                             features,
-                            target,
+                            targets,
                             weight,
                         } = row(at - lead);
                         assert_eq!(features.len(), width, "rows of the same width");
-                        for (column, value) in block.iter_mut().zip(features.iter().copied().chain([target, weight])) {
+                        assert_eq!(targets.len(), outputs, "a target an output");
+                        let values = features.iter().chain(targets).chain([&weight]);
+                        for (column, &value) in block.iter_mut().zip(values) {
                             column.0[at - start] = value;
                         }
                     }
@@ -75,7 +85,7 @@ impl Blocks {
         let (lead, columns) = (start % LANES, self.columns());
         let end = start - lead + other.rows;
         assert!(
-            self.width == other.width && end <= self.rows,
+            (self.width, self.outputs) == (other.width, other.outputs) && end <= self.rows,
             "rows of the same width, in places of these blocks"
         );
         let data = &mut self.data[start / LANES * columns..][..other.data.len()];
@@ -106,9 +116,14 @@ impl Blocks {
         self.width
     }
 
+    /// Targets of a row.
+    pub fn outputs(&self) -> usize {
+        self.outputs
+    }
+
     /// Columns of a block: the features, the targets, the weights.
     pub fn columns(&self) -> usize {
-        self.width + 2
+        self.width + self.outputs + 1
     }
 
     /// Number of rows.
@@ -154,16 +169,16 @@ impl Batch<'_> {
         self.order.iter().map(|&b| self.blocks.rows_of(b as usize)).sum()
     }
 
-    /// Its rows one after the other: features `[batch, W]`, targets and weights `[batch]`.
+    /// Its rows one after the other: features `[batch, W]`, targets `[batch, outputs]` and weights `[batch]`.
     pub fn to_rows(self) -> (Vec<f32>, Vec<f32>, Vec<f32>) {
         let (mut features, mut targets, mut weights) = (Vec::new(), Vec::new(), Vec::new());
-        let width = self.blocks.width();
+        let (width, outputs) = (self.blocks.width(), self.blocks.outputs());
         for &index in self.order {
             let block = self.blocks.block(index as usize);
             for lane in 0..self.blocks.rows_of(index as usize) {
                 features.extend(block[..width].iter().map(|c| c.0[lane]));
-                targets.push(block[width].0[lane]);
-                weights.push(block[width + 1].0[lane]);
+                targets.extend(block[width..width + outputs].iter().map(|c| c.0[lane]));
+                weights.push(block[width + outputs].0[lane]);
             }
         }
         (features, targets, weights)
@@ -231,7 +246,7 @@ mod tests {
         ] {
             let fresh = rows(count, 50_000);
             let mut blocks = Blocks::of(&old, &order);
-            blocks.splice(start, &Blocks::from_fn(3, start % LANES, count, |i| fresh.row(i)));
+            blocks.splice(start, &Blocks::from_fn(3, 1, start % LANES, count, |i| fresh.row(i)));
             let mut expected = old.clone();
             expected.features[3 * start..3 * (start + count)].copy_from_slice(&fresh.features);
             expected.targets[start..start + count].copy_from_slice(&fresh.targets);

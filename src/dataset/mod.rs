@@ -2,6 +2,7 @@
 
 pub mod blocks;
 pub mod build;
+pub mod colour;
 pub mod file;
 pub mod stream;
 
@@ -31,8 +32,8 @@ pub struct Rows {
 pub struct Row<'a> {
     /// `[W]`.
     pub features: &'a [f32],
-    /// The exact answer.
-    pub target: f32,
+    /// The exact answers, one an output of the network.
+    pub targets: &'a [f32],
     /// How much it counts in the loss.
     pub weight: f32,
 }
@@ -63,7 +64,7 @@ impl Rows {
         };
         Row {
             features: &self.features[index * width..][..width],
-            target: self.targets[index],
+            targets: &self.targets[index..=index],
             weight,
         }
     }

@@ -54,7 +54,7 @@ impl Part {
         };
         Row {
             features: &self.features[index * width..][..width],
-            target: self.targets[index],
+            targets: &self.targets[index..=index],
             weight,
         }
     }

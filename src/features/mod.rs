@@ -1,5 +1,6 @@
 //! Feature sets: what the network sees of a fragment. The only place that knows an order of columns.
 
+pub mod colour;
 pub mod core;
 pub mod deep_weighted_blended;
 mod extract;
@@ -131,6 +132,12 @@ pub enum Answer {
         /// What was added before the logarithm.
         offset: f32,
     },
+}
+
+impl From<FeatureSet> for Answer {
+    fn from(set: FeatureSet) -> Self {
+        set.answer()
+    }
 }
 
 /// What a dataset's rows are answered with.

@@ -73,14 +73,14 @@ struct Document {
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Layer {
+pub(super) struct Layer {
     /// `[inputs][outputs]`
-    weights: Vec<Vec<f32>>,
-    biases: Vec<f32>,
+    pub(super) weights: Vec<Vec<f32>>,
+    pub(super) biases: Vec<f32>,
 }
 
 impl Layer {
-    fn of(dense: &Dense) -> Self {
+    pub(super) fn of(dense: &Dense) -> Self {
         Self {
             weights: dense
                 .weights
@@ -93,7 +93,7 @@ impl Layer {
 }
 
 /// A layer from nested rows.
-fn dense(number: usize, weights: &[Vec<f32>], biases: Vec<f32>) -> Result<Dense, String> {
+pub(super) fn dense(number: usize, weights: &[Vec<f32>], biases: Vec<f32>) -> Result<Dense, String> {
     let outputs = biases.len();
     if let Some(row) = weights.iter().position(|row| row.len() != outputs) {
         return Err(format!(
@@ -140,6 +140,12 @@ pub fn from_json(text: &[u8], path: &Path) -> Result<Mlp, ModelError> {
     };
     let text = without_mark(text);
     let head: serde_json::Value = serde_json::from_slice(text).map_err(|e| not(e.to_string()))?;
+    if head.get("format").and_then(|f| f.as_str()) == Some(super::colour::FORMAT) {
+        return Err(not(
+            "a network that answers with a pixel's colour; it goes by its method's name, such as dfa:MODEL.json"
+                .to_owned(),
+        ));
+    }
     if head.get("format").and_then(|f| f.as_str()) != Some(FORMAT) {
         return Err(not(format!(
             "'format' is not '{FORMAT}'; weights of another program come in by 'nmt import'"

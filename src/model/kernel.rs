@@ -41,7 +41,7 @@ pub struct Padded {
 }
 
 impl Padded {
-    /// Layers of these (inputs, outputs), the last of one output.
+    /// Layers of these (inputs, outputs).
     pub fn new(shapes: &[(usize, usize)]) -> Self {
         let hidden = shapes[..shapes.len() - 1].iter().map(|s| s.1.next_multiple_of(UNITS));
         Self {
@@ -60,10 +60,16 @@ impl Padded {
         self.sizes.iter().sum()
     }
 
-    /// Number of padded parameters: of every hidden layer weights, then biases; of the output layer weights, then its
-    /// bias.
+    /// Number of outputs of the network.
+    pub fn outputs(&self) -> usize {
+        self.shapes[self.shapes.len() - 1].1
+    }
+
+    /// Number of padded parameters: of every layer weights, then biases; those of the output layer have no padding but
+    /// that of its inputs.
     pub fn count(&self) -> usize {
-        self.sizes.windows(2).map(|s| (s[0] + 1) * s[1]).sum::<usize>() + self.sizes[self.sizes.len() - 1] + 1
+        let hidden: usize = self.sizes.windows(2).map(|s| (s[0] + 1) * s[1]).sum();
+        hidden + (self.sizes[self.sizes.len() - 1] + 1) * self.outputs()
     }
 
     /// Calls with the padded and the plain place of every parameter.
@@ -71,7 +77,7 @@ impl Padded {
         let (mut padded_at, mut at) = (0, 0);
         for (index, &(inputs, outputs)) in self.shapes.iter().enumerate() {
             let padded_inputs = self.sizes[index];
-            let padded_outputs = self.sizes.get(index + 1).copied().unwrap_or(1);
+            let padded_outputs = self.sizes.get(index + 1).copied().unwrap_or(self.outputs());
             for i in 0..inputs {
                 for o in 0..outputs {
                     visit(padded_at + i * padded_outputs + o, at);
@@ -202,7 +208,14 @@ mod tests {
     /// Every parameter has a place of its own, and what fills up is 0.
     #[test]
     fn padding_is_undone() {
-        for sizes in [&[7, 32, 16, 1][..], &[7, 5, 9, 3, 1], &[9, 1], &[3, 8, 1]] {
+        for sizes in [
+            &[7, 32, 16, 1][..],
+            &[7, 5, 9, 3, 1],
+            &[9, 1],
+            &[3, 8, 1],
+            &[10, 30, 3],
+            &[5, 3],
+        ] {
             let shapes: Vec<_> = sizes.windows(2).map(|s| (s[0], s[1])).collect();
             let network = Padded::new(&shapes);
             let count: usize = shapes.iter().map(|(i, o)| (i + 1) * o).sum();

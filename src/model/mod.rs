@@ -1,11 +1,13 @@
 //! The network: plain arrays, a reference forward pass in two precisions, and its file.
 
+pub mod colour;
 pub mod file;
 pub mod kernel;
 pub mod mlp;
 pub mod shipped;
 pub mod simplify;
 
+pub use colour::ColourNetwork;
 pub use file::ModelError;
 pub use mlp::{Dense, Mlp, ShapeError};
 

@@ -18,11 +18,14 @@ pub const ENTRY: Entry = Entry {
     build,
 };
 
-/// A method that keeps so many bits of sums, ends and single fragments, the latter by a chain of atomics.
-pub(super) const fn capabilities(bits: u32) -> Capabilities {
-    let of_sums = Capabilities::of_sums(1, false);
+/// A method that keeps single fragments by a chain of atomics besides the sums of all others and their number. Slots
+/// are read four at a time, so that a buffer holds a multiple of four.
+pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
+    let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
     Capabilities {
-        bits_per_pixel: Some(bits),
+        bits_per_pixel: of_sums
+            .bits_per_pixel
+            .map(|bits| bits + 32 * set.slots().next_multiple_of(4) as u32),
         needs: Needs {
             atomics: true,
             ..of_sums.needs
@@ -73,7 +76,7 @@ impl Method for Core {
     }
 
     fn capabilities(&self) -> Capabilities {
-        capabilities(self.set.bits())
+        capabilities(&self.set)
     }
 
     fn shader(&self) -> Option<MethodShader> {

@@ -3,6 +3,7 @@
 pub mod abuffer;
 pub mod adaptive;
 pub mod capabilities;
+pub mod colour_network;
 pub mod core;
 pub mod deep_weighted_blended;
 pub mod depth_peeling;

@@ -155,7 +155,7 @@ impl Method for Neural {
         }
         let of_sums = Capabilities::of_sums(1 + set.moments() as u32, true);
         if let Some(core) = set.spec().core {
-            return core::capabilities(core.bits());
+            return core::capabilities(&core);
         }
         if self.frame == MomentFrame::Scene {
             return of_sums;

@@ -2,9 +2,10 @@
 
 use super::shader::Pass1;
 use super::{
-    Method, MethodShader, abuffer, adaptive, core, deep_weighted_blended, depth_peeling, dual_depth_peeling,
-    fourier_opacity, hybrid, low_resolution_moments, moment_power, moment_transparency, moment_trig, multi_layer_alpha,
-    neural, stochastic, two_moment_passes, wavelet, weighted_average, weighted_blended, weighted_sum,
+    Method, MethodShader, abuffer, adaptive, colour_network, core, deep_weighted_blended, depth_peeling,
+    dual_depth_peeling, fourier_opacity, hybrid, low_resolution_moments, moment_power, moment_transparency,
+    moment_trig, multi_layer_alpha, neural, stochastic, two_moment_passes, wavelet, weighted_average, weighted_blended,
+    weighted_sum,
 };
 use crate::model::ModelError;
 use crate::numeric::similar::suggestion;
@@ -152,6 +153,7 @@ const ENTRIES: &[&[Entry]] = &[
     &[dual_depth_peeling::ENTRY],
     &[multi_layer_alpha::ENTRY],
     &[adaptive::ENTRY],
+    &colour_network::ENTRIES,
     &[core::ENTRY],
     &[neural::ENTRY],
 ];

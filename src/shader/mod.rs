@@ -4,6 +4,8 @@
 //! [`compute`] compute passes. All WGSL lies in files beside the Rust; words in capitals that begin with `OIT_` are
 //! filled in.
 
+#[cfg(test)]
+mod capabilities;
 pub mod compute;
 mod core;
 pub mod method;

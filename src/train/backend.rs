@@ -3,7 +3,7 @@
 #[cfg(feature = "burn")]
 use super::burn;
 use super::{Engine, Optimiser, TrainConfig, fused};
-use crate::features::FeatureSet;
+use crate::features::Answer;
 use serde::{Deserialize, Serialize};
 
 /// What computes gradients and takes Adam's steps.
@@ -99,22 +99,23 @@ impl Backend {
         }
     }
 
-    /// An optimiser of this kind, at the given weights and with fresh moments.
+    /// An optimiser of this kind, at the given weights and with fresh moments; a feature set stands for its answer. The
+    /// last of the shapes says how many outputs there are.
     ///
     /// # Errors
     /// [`BackendError::NoDevice`] where the machine has nothing that it computes on, [`BackendError::Failed`] where
     /// that takes no step.
     pub fn optimiser(
         self,
-        set: FeatureSet,
+        answer: impl Into<Answer>,
         shapes: &[(usize, usize)],
         parameters: &[f32],
         config: &TrainConfig,
     ) -> Result<Box<dyn Optimiser>, BackendError> {
         Ok(match self {
-            Self::Fused => Box::new(fused::Fused::new(set, shapes, parameters, config)),
+            Self::Fused => Box::new(fused::Fused::new(answer, shapes, parameters, config)),
             #[cfg(feature = "burn")]
-            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, set, shapes, parameters, config)?),
+            Self::Burn(engine) => Box::new(burn::BurnOptimiser::new(engine, answer, shapes, parameters, config)?),
             #[cfg(not(feature = "burn"))]
             Self::Burn(engine) => match engine {},
         })

@@ -3,7 +3,7 @@
 use super::fused::all_blocks;
 use super::{AdamMoments, BackendError, Engine, Optimiser, TrainConfig, initial};
 use crate::dataset::{Batch, Blocks};
-use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
+use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer as _};
 use burn::tensor::{Device, Tensor, TensorData, activation};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -184,7 +184,7 @@ impl BurnOptimiser {
     /// where the trial step fails.
     pub fn new(
         engine: Engine,
-        set: FeatureSet,
+        answer: impl Into<Answer>,
         shapes: &[(usize, usize)],
         parameters: &[f32],
         config: &TrainConfig,
@@ -196,7 +196,7 @@ impl BurnOptimiser {
             .build();
         let Opened { device, adapter } = open(engine)?;
         let mut optimiser = Self {
-            answer: set.answer(),
+            answer: answer.into(),
             shapes: shapes.to_vec(),
             device,
             adam,
@@ -220,7 +220,7 @@ impl BurnOptimiser {
     /// A step on rows that weigh nothing.
     fn trial(&mut self, parameters: &[f32], rows: usize) -> Result<(), String> {
         self.restore(parameters, &AdamMoments::default());
-        let blocks = Blocks::zeros(self.shapes[0].0, rows);
+        let blocks = Blocks::zeros(self.shapes[0].0, self.outputs(), rows);
         let error = self.step(
             Batch {
                 blocks: &blocks,
@@ -235,6 +235,11 @@ impl BurnOptimiser {
                 "rows that weigh nothing had an error of {error:e}, or moved the weights"
             ))
         }
+    }
+
+    /// Outputs of the network.
+    fn outputs(&self) -> usize {
+        self.shapes[self.shapes.len() - 1].1
     }
 
     /// `[rows, columns]` of every parameter tensor.
@@ -254,10 +259,10 @@ impl BurnOptimiser {
             .collect()
     }
 
-    /// Weighted mean squared error of a batch, and the gradient of every parameter tensor.
+    /// Weighted mean squared error of a batch over rows and outputs, and the gradient of every parameter tensor.
     fn backward(&self, batch: Batch<'_>) -> (f64, Vec<Tensor<2>>) {
         let (features, targets, weights) = batch.to_rows();
-        let (n, width) = (targets.len(), self.shapes[0].0);
+        let (n, width) = (weights.len(), self.shapes[0].0);
         let tracked = self.device.clone().autodiff();
         let column = |values: Vec<f32>| -> Tensor<2> { Tensor::from_data(TensorData::new(values, [n, 1]), &tracked) };
         let absorbance = match self.answer {
@@ -269,7 +274,8 @@ impl BurnOptimiser {
                     .collect(),
             )),
         };
-        let (y, weights) = (column(targets), column(weights));
+        let weights = column(weights);
+        let y: Tensor<2> = Tensor::from_data(TensorData::new(targets, [n, self.outputs()]), &tracked);
         let x: Tensor<2> = Tensor::from_data(TensorData::new(features, [n, width]), &tracked);
         let leaves: Vec<Tensor<2>> = self
             .tensors

@@ -244,7 +244,7 @@ impl<'a> Preparation<'a> {
                 .collect();
             order.shuffle(&mut stream(self.source.seed, PURPOSE, (1 << 63) | self.epoch));
             let width = making.width();
-            Blocks::from_fn(width, range.start % LANES, range.len(), |at| {
+            Blocks::from_fn(width, 1, range.start % LANES, range.len(), |at| {
                 let (part, row) = order[at];
                 parts[part as usize].row(row as usize, width)
             })

@@ -7,7 +7,7 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::{Batch, Blocks};
-use crate::features::{Answer, FeatureSet};
+use crate::features::Answer;
 use crate::model::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden, hidden_layers, logit, shipped_sizes, wide};
 use crate::numeric::lanes::{Lanes, exp, sigmoid};
 use fearless_simd::prelude::*;
@@ -27,8 +27,8 @@ const MIN_DERIVATIVE: f32 = 1e-18;
 struct Workspace {
     /// Inputs and activations of a tile, layer after layer; on the way back, activations give way to derivatives.
     rows: Vec<Row>,
-    /// Derivatives of the logit.
-    delta: Row,
+    /// Derivatives of every output's logit.
+    deltas: Vec<Row>,
     /// Sums of gradients, sixteen partial sums a parameter.
     sums: Vec<Lanes>,
     /// Sums of gradients.
@@ -199,6 +199,69 @@ fn output<S: Simd>(
     error
 }
 
+/// [`output`] of a network of several outputs, each of which answers with its sigmoid.
+///
+/// # Shapes
+/// `parameters`, `g`: weights `[units][outputs]`, then biases `[outputs]`; `deltas: [outputs]`.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn outputs<S: Simd>(
+    simd: S,
+    units: usize,
+    parameters: &[f32],
+    batch: Batch<'_>,
+    h: &mut [Row],
+    deltas: &mut [Row],
+    g: &mut [Lanes],
+    scale: f32,
+) -> f32x16<S> {
+    let splat = |v: f32| f32x16::splat(simd, v);
+    let (zero, one) = (splat(0.0), splat(1.0));
+    let (width, count) = (batch.blocks.width(), deltas.len());
+    let (weights, biases) = parameters.split_at(units * count);
+    let (weight_sums, bias_sums) = g.split_at_mut(units * count);
+    let mut error = zero;
+    for (o, (delta, bias_sum)) in deltas.iter_mut().zip(&mut *bias_sums).enumerate() {
+        let mut bias = bias_sum.load(simd);
+        for (v, delta) in delta.iter_mut().enumerate() {
+            // Vectors that no block fills weigh nothing.
+            let Some(&index) = batch.order.get(v) else {
+                delta.store(zero);
+                continue;
+            };
+            let block = batch.blocks.block(index as usize);
+            let (target, weight) = (block[width + o].load(simd), block[width + count].load(simd));
+            let mut logit = splat(biases[o]);
+            for (k, h) in h[..units].iter().enumerate() {
+                logit = h[v].load(simd).mul_add(splat(weights[k * count + o]), logit);
+            }
+            let s = sigmoid(simd, logit);
+            let e = s - target;
+            let e = e.abs().simd_gt(splat(MIN_ERROR)).select(e, zero);
+            error += weight * (e * e);
+            let d = ((weight * e) * (s * (one - s))) * splat(scale);
+            let d = d.abs().simd_gt(splat(MIN_DERIVATIVE)).select(d, zero);
+            bias += d;
+            delta.store(d);
+        }
+        bias_sum.store(bias);
+    }
+    let of_units = weights.chunks_exact(count).zip(weight_sums.chunks_exact_mut(count));
+    for (h, (weights, sums)) in h[..units].iter_mut().zip(of_units) {
+        for (v, h) in h.iter_mut().enumerate() {
+            let value = h.load(simd);
+            let mut derivative = zero;
+            for ((delta, &w), sum) in deltas.iter().zip(weights).zip(&mut *sums) {
+                let d = delta[v].load(simd);
+                derivative = d.mul_add(splat(w), derivative);
+                sum.store(value.mul_add(d, sum.load(simd)));
+            }
+            h.store(value.simd_gt(zero).select(derivative, zero));
+        }
+    }
+    error
+}
+
 /// Fills a tile's input rows from its blocks.
 #[inline(always)]
 fn fill(width: usize, batch: Batch<'_>, rows: &mut [Row]) {
@@ -223,22 +286,16 @@ fn tile<S: Simd>(
     work: &mut Workspace,
     scale: f32,
 ) -> f32x16<S> {
-    let Workspace { rows, delta, sums, .. } = work;
+    let Workspace { rows, deltas, sums, .. } = work;
     fill(sizes[0], batch, rows);
     let (mut row, mut at) = hidden_layers(simd, sizes, p, rows);
     let last = sizes[sizes.len() - 1];
     // Without a hidden layer the inputs' own derivatives would overwrite them; they are filled anew for the next tile.
-    let error = output(
-        simd,
-        last,
-        &p[at..],
-        answer,
-        batch,
-        &mut rows[row..],
-        delta,
-        &mut sums[at..],
-        scale,
-    );
+    let (p_last, g_last, h) = (&p[at..], &mut sums[at..], &mut rows[row..]);
+    let error = match deltas.as_mut_slice() {
+        [delta] => output(simd, last, p_last, answer, batch, h, delta, g_last, scale),
+        deltas => outputs(simd, last, p_last, batch, h, deltas, g_last, scale),
+    };
     for index in (1..sizes.len()).rev() {
         let (inputs, outputs) = (sizes[index - 1], sizes[index]);
         at -= (inputs + 1) * outputs;
@@ -266,7 +323,7 @@ fn tile_of_two<S: Simd>(
     work: &mut Workspace,
     scale: f32,
 ) -> f32x16<S> {
-    let Workspace { rows, delta, sums, .. } = work;
+    let Workspace { rows, deltas, sums, .. } = work;
     fill(inputs, batch, rows);
     let (x, rest) = rows.split_at_mut(inputs);
     let (y1, y2) = rest.split_at_mut(h1);
@@ -276,7 +333,7 @@ fn tile_of_two<S: Simd>(
     let (g2, g3) = rest.split_at_mut((h1 + 1) * h2);
     hidden(simd, inputs, h1, &p1[..inputs * h1], &p1[inputs * h1..], x, y1);
     hidden(simd, h1, h2, &p2[..h1 * h2], &p2[h1 * h2..], y1, y2);
-    let error = output(simd, h2, p3, answer, batch, y2, delta, g3, scale);
+    let error = output(simd, h2, p3, answer, batch, y2, &mut deltas[0], g3, scale);
     layer_gradient(simd, h1, h2, y1, y2, g2);
     pull_back(simd, h1, h2, &p2[..h1 * h2], y2, y1);
     layer_gradient(simd, inputs, h1, x, y1, g1);
@@ -355,25 +412,35 @@ pub struct Fused {
 
 impl Fused {
     /// An optimiser at the given weights, on the best SIMD level of this machine.
-    pub fn new(set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
-        Self::at_level(Level::new(), set, shapes, parameters, config)
+    ///
+    /// # Panics
+    /// As [`Self::at_level`].
+    pub fn new(answer: impl Into<Answer>, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
+        Self::at_level(Level::new(), answer, shapes, parameters, config)
     }
 
     /// An optimiser on a given SIMD level.
+    ///
+    /// # Panics
+    /// If a network of several outputs answers with anything but their sigmoids.
     pub fn at_level(
         level: Level,
-        set: FeatureSet,
+        answer: impl Into<Answer>,
         shapes: &[(usize, usize)],
         parameters: &[f32],
         config: &TrainConfig,
     ) -> Self {
-        let network = Padded::new(shapes);
-        let count = network.count();
+        let (network, answer) = (Padded::new(shapes), answer.into());
+        let (count, outputs) = (network.count(), network.outputs());
+        assert!(
+            outputs == 1 || answer == Answer::Sigmoid,
+            "several outputs answer with their sigmoids"
+        );
         Self {
-            answer: set.answer(),
+            answer,
             parameters: network.pad(parameters),
             adam: Adam::new(count, config),
-            kernel: kernel_for(network.sizes()),
+            kernel: if outputs == 1 { kernel_for(network.sizes()) } else { any },
             works: Vec::new(),
             gradient: vec![0.0; count],
             level,
@@ -394,7 +461,7 @@ impl Fused {
             let count = self.network.count();
             let work = Workspace {
                 rows: vec![ZEROS; self.network.rows()],
-                delta: ZEROS,
+                deltas: vec![ZEROS; self.network.outputs()],
                 sums: vec![Lanes::ZERO; count],
                 gradient: vec![0.0; count],
                 error: 0.0,
@@ -411,7 +478,8 @@ impl Fused {
             gradient,
             ..
         } = self;
-        let scale = 2.0 / rows as f32;
+        let answers = rows * network.outputs();
+        let scale = 2.0 / answers as f32;
         works[..chunks]
             .par_iter_mut()
             .zip(batch.order.par_chunks(CHUNK))
@@ -432,7 +500,7 @@ impl Fused {
                 *g += part;
             }
         }
-        works[..chunks].iter().map(|w| w.error).sum::<f64>() / rows as f64
+        works[..chunks].iter().map(|w| w.error).sum::<f64>() / answers as f64
     }
 }
 

@@ -7,9 +7,18 @@ use rand_distr::{Distribution, Uniform};
 /// Keeps these random numbers apart from those of pixels and of shuffling.
 const PURPOSE: u64 = 0x1001;
 
-/// (inputs, outputs) of every layer of a network.
+/// (inputs, outputs) of every layer of a network of one output.
 pub fn shapes(inputs: usize, hidden: &[usize]) -> Vec<(usize, usize)> {
-    let sizes: Vec<usize> = [inputs].into_iter().chain(hidden.iter().copied()).chain([1]).collect();
+    shapes_to(inputs, hidden, 1)
+}
+
+/// (inputs, outputs) of every layer of a network of so many outputs.
+pub fn shapes_to(inputs: usize, hidden: &[usize], outputs: usize) -> Vec<(usize, usize)> {
+    let sizes: Vec<usize> = [inputs]
+        .into_iter()
+        .chain(hidden.iter().copied())
+        .chain([outputs])
+        .collect();
     sizes.windows(2).map(|s| (s[0], s[1])).collect()
 }
 

@@ -3,7 +3,7 @@
 use super::adam::Adam;
 use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::Batch;
-use crate::features::{Answer, FeatureSet, MAX_LOG_ABSORBANCE};
+use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 
 /// A network being fitted one row after the other, in f64.
 pub struct Scalar {
@@ -15,17 +15,17 @@ pub struct Scalar {
 
 impl Scalar {
     /// An optimiser at the given weights.
-    pub fn new(set: FeatureSet, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
+    pub fn new(answer: impl Into<Answer>, shapes: &[(usize, usize)], parameters: &[f32], config: &TrainConfig) -> Self {
         Self {
-            answer: set.answer(),
+            answer: answer.into(),
             shapes: shapes.to_vec(),
             parameters: parameters.to_vec(),
             adam: Adam::new(parameters.len(), config),
         }
     }
 
-    /// Squared error of one row, and its gradient added to `g`.
-    fn row(&self, features: &[f32], target: f32, weight: f64, g: &mut [f64]) -> f64 {
+    /// Squared error of one row, summed over the outputs, and its gradient added to `g`.
+    fn row(&self, features: &[f32], targets: &[f32], weight: f64, g: &mut [f64]) -> f64 {
         // Forward: the inputs of every layer are kept.
         let mut inputs: Vec<Vec<f64>> = vec![features.iter().map(|&f| f.into()).collect()];
         let mut at = 0;
@@ -38,19 +38,24 @@ impl Scalar {
             inputs.push(out);
             at += (i + 1) * o;
         }
-        let s = 1.0 / (1.0 + libm::exp(-inputs[self.shapes.len()][0]));
-        let (value, slope) = match self.answer {
-            Answer::Sigmoid => (s, s * (1.0 - s)),
-            Answer::AbsorbanceShare { column, offset } => {
-                let absorbance =
-                    (libm::exp(features[column].min(MAX_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
-                let value = libm::exp(-absorbance * s);
-                (value, -value * absorbance * s * (1.0 - s))
-            }
-        };
-        let e = value - f64::from(target);
+        let mut error = 0.0;
+        let mut delta = Vec::new();
+        for (logit, &target) in inputs[self.shapes.len()].iter().zip(targets) {
+            let s = 1.0 / (1.0 + libm::exp(-logit));
+            let (value, slope) = match self.answer {
+                Answer::Sigmoid => (s, s * (1.0 - s)),
+                Answer::AbsorbanceShare { column, offset } => {
+                    let absorbance =
+                        (libm::exp(features[column].min(MAX_LOG_ABSORBANCE).into()) - f64::from(offset)).max(0.0);
+                    let value = libm::exp(-absorbance * s);
+                    (value, -value * absorbance * s * (1.0 - s))
+                }
+            };
+            let e = value - f64::from(target);
+            error += weight * e * e;
+            delta.push(2.0 * weight * e * slope);
+        }
         // Backward.
-        let mut delta = vec![2.0 * weight * e * slope];
         for (index, &(i, o)) in self.shapes.iter().enumerate().rev() {
             at -= (i + 1) * o;
             let x = &inputs[index];
@@ -71,7 +76,7 @@ impl Scalar {
                 })
                 .collect();
         }
-        weight * e * e
+        error
     }
 }
 
@@ -87,8 +92,11 @@ impl Optimiser for Scalar {
         let width = batch.blocks.width();
         let mut g = vec![0.0; self.parameters.len()];
         let mut error = 0.0;
-        for ((row, &target), &weight) in features.chunks_exact(width).zip(&targets).zip(&weights) {
-            error += self.row(row, target, weight.into(), &mut g);
+        let rows = features
+            .chunks_exact(width)
+            .zip(targets.chunks_exact(batch.blocks.outputs()));
+        for ((row, targets), &weight) in rows.zip(&weights) {
+            error += self.row(row, targets, weight.into(), &mut g);
         }
         let n = targets.len() as f64;
         (error / n, g.into_iter().map(|g| (g / n) as f32).collect())

@@ -274,6 +274,7 @@ documents! {
     docs_input: "docs/input.md",
     docs_integration: "docs/integration.md",
     docs_methods: "docs/methods.md",
+    the_comparison: "docs/comparison.md",
     docs_over_time: "docs/over-time.md",
     docs_page: "docs/page.md",
     docs_performance: "docs/performance.md",

@@ -118,3 +118,55 @@ fn evaluate_knows_shadows_tints_and_orders() {
     let (code, text) = run(&["--fragments", "spheres", "--tint", "2"], "c");
     assert!(code == Some(2) && text.contains("--tint 2"), "{text}");
 }
+
+/// A network of colours is trained by `nmt train` and used by its method's name; commands that cannot take it say so.
+#[test]
+fn networks_of_colours_are_trained_and_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_nmt"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+        (output.status.code(), text)
+    };
+    let law = std::fs::read_to_string(root.join("configs/paper.toml")).unwrap();
+    std::fs::write(folder.path().join("paper.toml"), law).unwrap();
+    let config = "extends = \"paper.toml\"\nname = \"s\"\n[dataset]\nfeatures = \"star-nt\"\ntraining_pairs = 900\n\
+        validation_pairs = 300\n[colours]\npalette = 3\nshading = 0.2\n[train]\nepochs = 2\nbatch = 64\n";
+    std::fs::write(folder.path().join("s.toml"), config).unwrap();
+    let (code, text) = run(&["train", "s.toml", "--out", "s.json", "--quiet"]);
+    assert!(code == Some(0) && text.contains("5-32-16-3"), "{text}");
+    let evaluate = |method: &str, out: &str| {
+        let fragments = ["evaluate", "--quiet", "--fragments", "spheres", "--size", "24x24"];
+        run(&[&fragments[..], &["--methods", method, "--out", out]].concat())
+    };
+    let (code, text) = evaluate("star-nt:s.json", "a");
+    assert!(code == Some(0) && text.contains("star-nt:s.json"), "{text}");
+    let (code, text) = evaluate("dfa:s.json", "b");
+    assert!(
+        code == Some(2) && text.contains("a network of star-nt, not of dfa"),
+        "{text}"
+    );
+    for (arguments, part) in [
+        (&["run", "s.toml"][..], "'nmt train' trains it"),
+        (
+            &["train", "s.toml", "--out", "t.json", "--resume"],
+            "leave out --dataset and --resume",
+        ),
+        (&["export", "s.json", "--out", "e"], "dfa:MODEL.json"),
+    ] {
+        let (code, text) = run(arguments);
+        assert!(code == Some(2) && text.contains(part), "{text}");
+    }
+    std::fs::write(
+        folder.path().join("w.toml"),
+        config.replace("palette = 3", "palette = 0"),
+    )
+    .unwrap();
+    let (code, text) = run(&["train", "w.toml", "--out", "w.json"]);
+    assert!(code == Some(2) && text.contains("colours.palette = 0"), "{text}");
+}

@@ -34,7 +34,7 @@ pub(super) fn chart(scenes: &[SceneResults]) -> Option<String> {
 fn series(compared: &Compared<'_>) -> Option<Series> {
     let (bits, mean) = (compared.capabilities.bits_per_pixel?, compared.mean?);
     let passes = compared.capabilities.geometry_passes;
-    let network = ["neural:", "core:"]
+    let network = ["neural:", "core:", "dfa", "star-nt"]
         .iter()
         .any(|head| compared.method.starts_with(head));
     Some(Series {

@@ -69,6 +69,10 @@ impl Session<'_> {
         let progress = self.ui.progress("shadows", self.methods.len() as u64);
         for (index, Requested { method, .. }) in self.methods.iter().enumerate() {
             progress.set(index as u64, format!("{name}: {}", method.name()));
+            if !method.weights_are_transmittance() {
+                remarks += &format!("not applied, {}: its weights are no transmittances\n", method.name());
+                continue;
+            }
             // Numbers and ends of fragments are not what a filter makes of them: networks are asked unfiltered.
             let filters: &[Filter] = if method.name().starts_with("neural:") || method.name().starts_with("core:") {
                 &[Filter::Nearest]
