@@ -11,6 +11,9 @@
 //         steps must come from the same expressions as in pass 1. Add up alpha T C and alpha T.
 // Resolve: colour = (1 - exp(-b0)) * sum(alpha T C) / sum(alpha T) + exp(-b0) * background
 
+#ifndef NMT_INCLUDED_CORE_LARGE_CHAIN
+#define NMT_INCLUDED_CORE_LARGE_CHAIN
+
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
 // Form: packed. Blocks of 4 x 4 weights as matrices; every index is a literal.
 //
@@ -549,3 +552,14 @@ float nmt_core_transmittance(
         moments
     );
 }
+
+// Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
+// shows through: result.rgb + result.a * background. As a blend state: source factor one, destination factor source
+// alpha.
+vec4 nmt_resolve(vec4 weighted, vec4 sums0) {
+    float behind = exp(-sums0.x);
+    float scale = (weighted.w > 0.0 ? (1.0 - behind) / max(weighted.w, 1e-37) : 0.0);
+    return vec4(scale * weighted.x, scale * weighted.y, scale * weighted.z, behind);
+}
+
+#endif

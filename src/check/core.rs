@@ -1,13 +1,15 @@
-//! Exports of a core whose tail is a beta law: what stands in a folder is read, compiled, and executed beside the
-//! formulas.
+//! Exports of a core, whose tail is a beta law or a network's: what stands in a folder is read, compiled, and executed
+//! beside the formulas.
 
 use super::interpret::{Interpreter, Value};
-use super::{Finding, hlsl, rows::RowKind};
+use super::{Finding, hlsl, pruned, rows::RowKind, without_prefix};
 use crate::check::Numbers;
 use crate::export::Format;
-use crate::export::core::weigh::{Entry, weigh_by_law};
-use crate::export::core::{CoreBinding, CoreLanguage, codes, file_name, insert, stride};
+use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
+use crate::export::core::{CoreBinding, CoreLanguage, chain_name, codes, file_name, insert, stride};
 use crate::features::core::CoreSet;
+use crate::model::Mlp;
+use crate::model::simplify::without_units;
 use crate::numeric::file::read;
 use crate::numeric::rng::stream;
 use crate::numeric::tolerance::AbsoluteError;
@@ -30,8 +32,46 @@ struct Row {
     expected: f32,
 }
 
+/// Whose files are checked.
+#[derive(Clone, Copy)]
+enum Subject<'a> {
+    Law(CoreSet),
+    Network(CoreSet, &'a Mlp),
+}
+
+impl Subject<'_> {
+    fn set(self) -> CoreSet {
+        let (Self::Law(set) | Self::Network(set, _)) = self;
+        set
+    }
+
+    fn file_name(self, language: CoreLanguage) -> String {
+        match self {
+            Self::Law(set) => file_name(set, language),
+            Self::Network(_, mlp) => chain_name(mlp, language),
+        }
+    }
+
+    fn weigh<const N: usize>(self, own: Entry<f32>, core: &[Entry<f32>], n: f32, b: [f32; N]) -> f32 {
+        let bits = self.set().layout.depth_bits;
+        match self {
+            Self::Law(_) => weigh_by_law(own, core, n, b, bits),
+            Self::Network(_, mlp) => weigh_by_mlp(own, core, n, b, bits, mlp),
+        }
+    }
+
+    /// The file with another constant: the slope of the normal law's log-odds, or the network's last bias.
+    fn control(self, text: &str) -> String {
+        match self {
+            Self::Law(_) => text.replace("1.5976", "1.2"),
+            Self::Network(..) => text.replace("min(-logit, 80.0)", "min(0.5 - logit, 80.0)"),
+        }
+    }
+}
+
 /// Fragments of random pixels, the core the nearest, the farthest and the next ones.
-fn rows(set: CoreSet) -> Vec<Row> {
+fn rows(subject: Subject<'_>) -> Vec<Row> {
+    let set = subject.set();
     let mut rng = stream(17, 0x0063_6f72, 0);
     let mut rows = Vec::new();
     for _ in 0..PIXELS {
@@ -61,12 +101,11 @@ fn rows(set: CoreSet) -> Vec<Row> {
             .collect();
         for &own in &fragments {
             let n = n as f32;
-            let bits = set.layout.depth_bits;
             let expected = match set.moments {
-                1 => weigh_by_law(own, &core, n, [b[0], b[1]], bits),
-                2 => weigh_by_law(own, &core, n, [b[0], b[1], b[2]], bits),
-                3 => weigh_by_law(own, &core, n, [b[0], b[1], b[2], b[3]], bits),
-                _ => weigh_by_law(own, &core, n, b, bits),
+                1 => subject.weigh(own, &core, n, [b[0], b[1]]),
+                2 => subject.weigh(own, &core, n, [b[0], b[1], b[2]]),
+                3 => subject.weigh(own, &core, n, [b[0], b[1], b[2], b[3]]),
+                _ => subject.weigh(own, &core, n, b),
             };
             let core = core.clone();
             rows.push(Row {
@@ -189,20 +228,30 @@ fn glslang(text: &str, language: CoreLanguage) -> Option<Result<(), String>> {
     })
 }
 
-/// Checks the files of a core in a folder; what is missing is named.
+/// Checks the files of a core whose tail is a beta law in a folder; what is missing is named.
 ///
 /// Each is read; codes and insertion chain must stand there as the program writes them; the weight is executed on
-/// random pixels and held to the formulas. The control is a file with another constant in its law, which must not pass.
+/// random pixels and held to the formulas. The control is a file with another constant, which must not pass.
 pub fn check(set: CoreSet, folder: &Path) -> Vec<Finding> {
-    let rows = rows(set);
+    files(Subject::Law(set), folder, &CoreLanguage::ALL)
+}
+
+/// [`check`] of the files in which a network with a core stands for both passes; none where it has none.
+pub fn check_network(mlp: &Mlp, folder: &Path, languages: &[CoreLanguage]) -> Vec<Finding> {
+    match mlp.feature_set().spec().core {
+        Some(set) if crate::export::core::has_chain(mlp) => files(Subject::Network(set, mlp), folder, languages),
+        _ => Vec::new(),
+    }
+}
+
+fn files(subject: Subject<'_>, folder: &Path, languages: &[CoreLanguage]) -> Vec<Finding> {
+    let set = subject.set();
     let mut findings = Vec::new();
-    for (language, format) in [
-        (CoreLanguage::Wgsl, Format::WGSL),
-        (CoreLanguage::Glsl, Format::GLSL),
-        (CoreLanguage::Hlsl, Format::HLSL),
-    ] {
-        let path = folder.join(file_name(set, language));
-        let text = read(&path).map_err(|e| e.to_string());
+    for &language in languages {
+        let format = language.format();
+        let path = folder.join(subject.file_name(language));
+        let text = read(&path).map_err(|e| format!("{e}; 'nmt export' writes it"));
+        let text = text.map(|bytes| without_prefix(format, bytes));
         let text = text.and_then(|bytes| String::from_utf8(bytes).map_err(|e| format!("{}: {e}", path.display())));
         let text = match text {
             Ok(text) => text,
@@ -211,6 +260,23 @@ pub fn check(set: CoreSet, folder: &Path) -> Vec<Finding> {
                 continue;
             }
         };
+        // A network whose units were taken out is held to what is left of it.
+        let left = match subject {
+            Subject::Law(_) => Ok(None),
+            Subject::Network(_, mlp) => pruned(format, text.as_bytes()).and_then(|pruned| {
+                let left = pruned.map(|pruned| without_units(mlp, &pruned.units));
+                left.transpose().map_err(|e| e.to_string())
+            }),
+        };
+        let subject = match &left {
+            Ok(Some(left)) => Subject::Network(set, left),
+            Ok(None) => subject,
+            Err(why) => {
+                findings.push(Finding::new(format, "nmt", "computes the reference", Err(why.clone())));
+                continue;
+            }
+        };
+        let rows = rows(subject);
         let place = CoreBinding::DEFAULT;
         let whole = text.contains(&codes(set, language)) && text.contains(&insert(language, place));
         let result = if whole {
@@ -219,7 +285,7 @@ pub fn check(set: CoreSet, folder: &Path) -> Vec<Finding> {
             Err("they differ from what this version writes; export again".to_owned())
         };
         findings.push(Finding::new(format, "built in", "codes and insertion chain", result));
-        findings.push(numbers(format, &text, language, set, &rows));
+        findings.push(numbers(format, &text, language, subject, &rows));
         if language != CoreLanguage::Wgsl {
             let question = "is it valid";
             findings.push(match glslang(&text, language) {
@@ -232,7 +298,8 @@ pub fn check(set: CoreSet, folder: &Path) -> Vec<Finding> {
 }
 
 /// The weight on random pixels, and the control.
-fn numbers(format: Format, text: &str, language: CoreLanguage, set: CoreSet, rows: &[Row]) -> Finding {
+fn numbers(format: Format, text: &str, language: CoreLanguage, subject: Subject<'_>, rows: &[Row]) -> Finding {
+    let set = subject.set();
     let question = "does it compute the formulas";
     let tool = if language == CoreLanguage::Hlsl {
         "slangc"
@@ -245,8 +312,7 @@ fn numbers(format: Format, text: &str, language: CoreLanguage, set: CoreSet, row
             Err(missing) => Ok(Err(missing)),
         }
     };
-    // The slope of the normal law's log-odds.
-    let control = text.replace("1.5976", "1.2");
+    let control = subject.control(text);
     let (error, wrong) = match (measure(text), measure(&control)) {
         (Ok(Ok(error)), Ok(Ok(wrong))) => (error, wrong),
         (Ok(Err(missing)), _) | (_, Ok(Err(missing))) => return Finding::skipped(format, tool, question, missing),
@@ -274,8 +340,52 @@ fn numbers(format: Format, text: &str, language: CoreLanguage, set: CoreSet, row
 mod tests {
     use super::super::Status;
     use super::*;
-    use crate::export::core::write;
+    use crate::export::Prefix;
+    use crate::export::core::{chain_files, write};
+    use crate::model::shipped;
     use crate::numeric::file::Replace;
+
+    /// Both passes of the shipped networks: what is written passes, under a prefix too. A file with another weight,
+    /// one with another chain and one that is missing do not, nor does another network's.
+    #[test]
+    fn files_of_networks_with_a_core_are_checked() {
+        let folder = tempfile::tempdir().unwrap();
+        let failed = |mlp: &Mlp| -> Vec<String> {
+            let findings = check_network(mlp, folder.path(), &CoreLanguage::ALL);
+            assert!(findings.len() >= 3);
+            let failed = findings.iter().filter(|f| matches!(f.status, Status::Failed(_)));
+            failed
+                .map(|f| format!("{} {} {:?}", f.format.name(), f.question, f.status))
+                .collect()
+        };
+        let save = |mlp: &Mlp, prefix: Option<&Prefix>| {
+            for file in chain_files(mlp, &CoreLanguage::ALL, prefix).unwrap() {
+                std::fs::write(folder.path().join(file.path), file.text).unwrap();
+            }
+        };
+        let core = shipped::open(Path::new("core")).unwrap();
+        for name in ["core-small", "core-large", "core"] {
+            let mlp = shipped::open(Path::new(name)).unwrap();
+            save(&mlp, None);
+            assert_eq!(failed(&mlp), Vec::<String>::new());
+        }
+        save(&core, Some(&"glass".parse().unwrap()));
+        assert_eq!(failed(&core), Vec::<String>::new());
+        save(&core, None);
+        let path = folder.path().join(chain_name(&core, CoreLanguage::Wgsl));
+        let text = std::fs::read_to_string(&path).unwrap();
+        let without = |from: &str, to: &str| {
+            assert!(text.contains(from), "{from}");
+            std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+            assert_eq!(failed(&core).len(), 1, "{from}");
+        };
+        without("min(-logit, 80.0)", "min(-1.1 * logit, 80.0)");
+        without("if (second == 0u)", "if (second == 1u)");
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(failed(&core).len(), 1);
+        let other = shipped::open(Path::new("recommended")).unwrap();
+        assert!(check_network(&other, folder.path(), &CoreLanguage::ALL).is_empty());
+    }
 
     /// What is written passes; a file that lost its last function, one with a wrong constant and one that is missing do
     /// not.

@@ -14,6 +14,7 @@ pub mod rows;
 pub mod shader;
 pub mod translated;
 
+use crate::export::core::chain_languages;
 use crate::export::shader::{ENTRY, PRUNED, half_bounds, half_limit, network_function};
 use crate::export::{Format, Precision, Prefix, Target, onnx as onnx_export, translate};
 use crate::features::FeatureSet;
@@ -625,6 +626,7 @@ pub fn check(
             Target::Wgsl | Target::Glsl => check_shader(subject, format, &bytes, &mut findings),
         }
     }
+    findings.extend(core::check_network(mlp, folder, &chain_languages(formats)));
     findings
 }
 

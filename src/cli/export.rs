@@ -15,7 +15,8 @@ use std::path::PathBuf;
 #[derive(Args)]
 pub struct Export {
     /// Model file, or the name of a shipped network: recommended, small, moments-6, paper, deep-weighted-blended; or
-    /// core:K, the method without a network, in WGSL, GLSL and HLSL.
+    /// core:K, the method without a network, in WGSL, GLSL and HLSL. Of a network with a core, NAME.chain.wgsl, .glsl
+    /// and .hlsl hold both passes, the network among them.
     model: PathBuf,
     /// Folder for the exports.
     #[arg(long)]
@@ -143,7 +144,9 @@ impl Export {
                         "pruned_units": mlp.provenance.pruned.as_ref().map(|p| p.count()),
                 })
             };
-            let results = formats.iter().zip(&paths).map(result).collect();
+            let mut results: Vec<_> = formats.iter().zip(&paths).map(result).collect();
+            let chains = paths[formats.len()..].iter();
+            results.extend(chains.map(|path| json!({ "network": mlp.shape(), "file": path })));
             ui.print_json("export", results)?;
         } else {
             for path in paths {

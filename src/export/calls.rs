@@ -39,7 +39,7 @@ pub fn write(source: &Source, spec: &FeatureSpec) {
         MomentDepthKind::Window => calls.by_window_depth(),
         MomentDepthKind::Log | MomentDepthKind::None => calls.by_view_depth(),
     }
-    calls.resolve();
+    write_resolve(source);
 }
 
 /// Comment of the call of pass 2.
@@ -191,20 +191,19 @@ impl<'s> Calls<'s> {
         let arguments: Vec<_> = numbers.chain([self.moments()]).collect();
         self.source.return_value(self.source.call(function, &arguments));
     }
+}
 
-    fn resolve(&self) {
-        let about = "Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of \
-                     the background shows through: result.rgb + result.a * background. As a blend state: source \
-                     factor one, destination factor source alpha.";
-        let parameters = [("weighted", Type::Vec4), ("sums0", Type::Vec4)];
-        self.source
-            .begin_function("nmt_resolve", about, &parameters, Type::Vec4);
-        let [red, green, blue, weight] = self.source.vec4("weighted");
-        let [b0, ..] = self.source.vec4("sums0");
-        let behind = (-b0).exp().named("behind");
-        let whole = (c(1.0) - behind) / weight.max(c(1e-37));
-        let scale = Expression::select(weight.gt(c(0.0)), whole, weight.like(0.0)).named("scale");
-        self.source
-            .return_numbers(&[scale * red, scale * green, scale * blue, behind]);
-    }
+/// Writes `nmt_resolve`, the same for all that composite by Eq. 7 of NMT24.
+pub fn write_resolve(source: &Source) {
+    let about = "Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of \
+                 the background shows through: result.rgb + result.a * background. As a blend state: source \
+                 factor one, destination factor source alpha.";
+    let parameters = [("weighted", Type::Vec4), ("sums0", Type::Vec4)];
+    source.begin_function("nmt_resolve", about, &parameters, Type::Vec4);
+    let [red, green, blue, weight] = source.vec4("weighted");
+    let [b0, ..] = source.vec4("sums0");
+    let behind = (-b0).exp().named("behind");
+    let whole = (c(1.0) - behind) / weight.max(c(1e-37));
+    let scale = Expression::select(weight.gt(c(0.0)), whole, weight.like(0.0)).named("scale");
+    source.return_numbers(&[scale * red, scale * green, scale * blue, behind]);
 }

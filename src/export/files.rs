@@ -1,10 +1,10 @@
 //! The files of a shader folder: include files, and the three passes as whole files for every graphics API.
 
 use super::calls::{channels, targets};
-use super::core::{self, CoreLanguage, MAX_SHADER_MOMENTS};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
-use super::{ExportError, Format, encode_as, translate};
+use super::{ExportError, Format, core, encode_as, translate};
+use crate::features::core::CoreSet;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
@@ -96,6 +96,53 @@ impl Api {
         }
     }
 
+    /// APIs that passes of a core are written for: those with atomics in the fragment stage, Vulkan and Metal apart.
+    const OF_CORES: [Self; 5] = [
+        Self::WebGpu,
+        Self::OpenGl450,
+        Self::OpenGl430,
+        Self::OpenGlEs310,
+        Self::Direct3d,
+    ];
+
+    /// Names and templates of its files where a core is kept; the resolve is that of all.
+    fn core_templates(self) -> Vec<(&'static str, &'static str)> {
+        let (names, texts) = match self {
+            Self::WebGpu => (
+                ["pass1.wgsl", "pass2.wgsl"],
+                [
+                    include_str!("files/core/webgpu/pass1.wgsl"),
+                    include_str!("files/core/webgpu/pass2.wgsl"),
+                ],
+            ),
+            Self::Direct3d => (
+                ["pass1.hlsl", "pass2.hlsl"],
+                [
+                    include_str!("files/core/direct3d/pass1.hlsl"),
+                    include_str!("files/core/direct3d/pass2.hlsl"),
+                ],
+            ),
+            _ => (
+                ["pass1.frag", "pass2.frag"],
+                [
+                    include_str!("files/core/opengl/pass1.frag"),
+                    include_str!("files/core/opengl/pass2.frag"),
+                ],
+            ),
+        };
+        let of_all = self.templates().into_iter().skip(2);
+        names.into_iter().zip(texts).chain(of_all).collect()
+    }
+
+    /// The language that cores are written in for it.
+    fn core_language(self) -> core::CoreLanguage {
+        match self {
+            Self::WebGpu | Self::Metal => core::CoreLanguage::Wgsl,
+            Self::Direct3d => core::CoreLanguage::Hlsl,
+            _ => core::CoreLanguage::Glsl,
+        }
+    }
+
     /// What its version of GLSL spells in its own way.
     fn glsl(self) -> Glsl {
         let glsl = |name, version, es, locations, bindings| Glsl {
@@ -135,36 +182,32 @@ pub struct ShaderFile {
     pub text: String,
 }
 
-/// Every file of a network: the include files; where blended sums are all that its answer needs, the passes of every
-/// API; where it has a core, the functions of both passes around it.
+/// Every file of a network: the include files, and where its answer is a transmittance the passes of every API; of a
+/// network with a core, the files of both passes ([`core::chain`]).
 ///
 /// # Errors
 /// [`ExportError`].
 pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, ExportError> {
     let set = mlp.feature_set();
+    let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
     let mut out = Vec::new();
     for format in [Format::WGSL, Format::GLSL, Format::HLSL, Format::METAL] {
         let text = String::from_utf8(encode_as(mlp, format, prefix)?).expect("shader source is text");
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if let Some(core) = set.spec().core.filter(|core| core.moments <= MAX_SHADER_MOMENTS) {
-        for (language, format) in [
-            (CoreLanguage::Wgsl, Format::WGSL),
-            (CoreLanguage::Glsl, Format::GLSL),
-            (CoreLanguage::Hlsl, Format::HLSL),
-        ] {
-            let network = String::from_utf8(encode_as(mlp, format, None)?).expect("shader source is text");
-            let text = core::text_with_network(core, language, &network);
-            let text = prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
-            let path = format!("{}.chain{}", mlp.name(), format.suffix());
-            out.push(ShaderFile { path, text });
-        }
-    }
     if !set.spec().has_blended_passes() {
+        out.extend(core::chain_files(mlp, &core::CoreLanguage::ALL, prefix)?);
+        let apis = if core::has_chain(mlp) { &Api::OF_CORES[..] } else { &[] };
+        for &api in apis {
+            for (name, template) in api.core_templates() {
+                let path = format!("{}/{name}", api.folder());
+                let text = named(pass(mlp, api, template)?);
+                out.push(ShaderFile { path, text });
+            }
+        }
         return Ok(out);
     }
-    let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
     out.push(ShaderFile {
         path: format!("{}.unity.hlsl", mlp.name()),
         text: named(unity(mlp)),
@@ -209,11 +252,18 @@ pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace
 /// A pass of an API by its template.
 ///
 /// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of
-/// such depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME` is a function with all
-/// it uses.
+/// such depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME ...` are functions with
+/// all that they use.
 fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let (set, glsl) = (mlp.feature_set(), api.glsl());
-    let include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
+    let last = targets(set);
+    let mut include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
+    if core::has_chain(mlp) {
+        // Direct3D 11 counts buffers that are written among the targets.
+        let binding = if api == Api::Direct3d { last as u32 } else { 0 };
+        let place = core::CoreBinding { group: 3, binding };
+        include += &core::calls(mlp, api.core_language(), place);
+    }
     let mut text = String::new();
     for line in template.lines() {
         let (kind, rest) = match line.strip_prefix('%') {
@@ -234,7 +284,9 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
         }
         text.push('\n');
     }
-    let last = targets(set);
+    if let Some(core) = set.spec().core {
+        text = of_core(&text, core, api.core_language());
+    }
     let sums: Vec<String> = (0..last).map(|i| format!("sums.sums{i}")).collect();
     let location = |i: usize| match glsl.locations {
         true => format!("layout(location = {i}) "),
@@ -256,6 +308,51 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
         .replace("{api}", glsl.name)
         .replace("{sums}", &sums.join(", "))
         .replace("{range}", &last.to_string()))
+}
+
+/// What passes of a core are filled in with beside what all are.
+fn of_core(text: &str, set: CoreSet, language: core::CoreLanguage) -> String {
+    const LANES: [&str; 4] = ["x", "y", "z", "w"];
+    let vector = match language {
+        core::CoreLanguage::Wgsl => "vec4<f32>",
+        core::CoreLanguage::Glsl => "vec4",
+        core::CoreLanguage::Hlsl => "float4",
+    };
+    let numbers = set.moments + 2;
+    let term = |number: usize| match number {
+        0 => "absorbance".to_owned(),
+        k if k <= set.moments => format!("b.{}", LANES[k - 1]),
+        k if k + 1 == numbers => "n".to_owned(),
+        _ => "0.0".to_owned(),
+    };
+    let terms = |target: usize| {
+        let terms: Vec<String> = (4 * target..4 * target + 4).map(term).collect();
+        format!("{vector}({})", terms.join(", "))
+    };
+    let all: Vec<String> = (0..numbers.div_ceil(4)).map(terms).collect();
+    let sum = |number: usize| format!("sums{}.{}", number / 4, LANES[number % 4]);
+    let moment = |k: usize| if k <= set.moments { sum(k) } else { "0.0".to_owned() };
+    let moments: Vec<String> = (1..=4).map(moment).collect();
+    let words = core::stride(set);
+    let slot = |i: usize| {
+        if i == 0 {
+            "core[first]".to_owned()
+        } else {
+            format!("core[first + {i}u]")
+        }
+    };
+    let slots: Vec<String> = (0..words / 4).map(slot).collect();
+    let mut text = text.to_owned();
+    for (i, terms) in all.iter().enumerate() {
+        text = text.replace(&format!("{{terms{i}}}"), terms);
+    }
+    text.replace("{terms}", &all.join(", "))
+        .replace("{moments}", &moments.join(", "))
+        .replace("{slots}", &slots.join(", "))
+        .replace("{words}", &words.to_string())
+        .replace("{vectors}", &(words / 4).to_string())
+        .replace("{n}", &sum(numbers - 1))
+        .replace("{b0}", &sum(0))
 }
 
 /// A line once a target of sums.
@@ -300,8 +397,18 @@ fn unity(mlp: &Mlp) -> String {
         .replace("{arguments}", &each(&|i| format!("Sums{i}")))
 }
 
-/// Paragraphs of a source that a function uses, and itself; each begins with an empty line.
-fn reachable(source: &str, function: &str) -> String {
+/// A line without the attributes in front of a declaration: `@group(0) @binding(0)`, `layout(binding = 0)`.
+fn declared(line: &str) -> &str {
+    match line.split_once(')') {
+        Some((attribute, rest)) if attribute.starts_with('@') || attribute.starts_with("layout(") => {
+            declared(rest.trim_start())
+        }
+        _ => line,
+    }
+}
+
+/// Paragraphs of a source that functions use, and themselves; each begins with an empty line.
+fn reachable(source: &str, functions: &str) -> String {
     // Names begin with nmt_, NMT_ or Nmt; a paragraph defines what its lines declare, and uses all other names in its
     // code.
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -318,14 +425,14 @@ fn reachable(source: &str, function: &str) -> String {
     for (index, paragraph) in paragraphs.iter().enumerate() {
         for line in paragraph.lines().map(code) {
             // A declaration stands at the margin, and its name before brackets and values.
-            let head = line.split(['(', '=']).next().unwrap_or_default();
+            let head = declared(&line).split(['(', '=']).next().unwrap_or_default();
             if let Some(name) = names(head).pop().filter(|_| !line.starts_with([' ', '#', '}', ')'])) {
                 defined.entry(name).or_insert(index);
             }
         }
     }
     let mut used: HashSet<usize> = HashSet::new();
-    let mut open = vec![function.to_owned()];
+    let mut open: Vec<String> = functions.split_whitespace().map(str::to_owned).collect();
     while let Some(name) = open.pop() {
         if let Some(&index) = defined.get(&name)
             && used.insert(index)

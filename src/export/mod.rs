@@ -71,7 +71,8 @@ pub fn encode_as(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<V
     })
 }
 
-/// Writes exports of a network into a folder and returns their paths.
+/// Writes exports of a network into a folder and returns their paths: one a format, then of a network with a core the
+/// files of both passes ([`core::chain`]), one a language among the formats.
 ///
 /// # Errors
 /// [`FileError::Exists`] before anything is written where one of them is there and may not be replaced, and whatever
@@ -83,12 +84,16 @@ pub fn write(
     prefix: Option<&Prefix>,
     replace: Replace,
 ) -> Result<Vec<PathBuf>, ExportError> {
-    let paths: Vec<_> = formats.iter().map(|f| f.path(folder, mlp)).collect();
-    paths.iter().try_for_each(|path| may_write(path, replace))?;
-    let encoded = formats
+    let mut paths: Vec<_> = formats.iter().map(|f| f.path(folder, mlp)).collect();
+    let mut encoded = formats
         .iter()
         .map(|&format| encode_as(mlp, format, prefix))
         .collect::<Result<Vec<_>, _>>()?;
+    for file in core::chain_files(mlp, &core::chain_languages(formats), prefix)? {
+        paths.push(folder.join(file.path));
+        encoded.push(file.text.into_bytes());
+    }
+    paths.iter().try_for_each(|path| may_write(path, replace))?;
     create_folder(folder)?;
     for (bytes, path) in encoded.iter().zip(&paths) {
         write_atomically(path, replace, |w| w.write_all(bytes))?;

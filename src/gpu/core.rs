@@ -5,19 +5,22 @@ mod tests {
     use crate::check::core::without_atomics;
     use crate::check::hlsl;
     use crate::evaluate::{self, gpu::within_999};
-    use crate::export::core::weigh::{Entry, weigh_by_law};
-    use crate::export::core::{CoreBinding, CoreLanguage, codes, insert, stride, weigh};
+    use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
+    use crate::export::core::{CoreBinding, CoreLanguage, chain, codes, insert, known_fragments, stride, weigh};
     use crate::features::core::CoreSet;
     use crate::features::core::code::{CodeLayout, CoreFragment, EMPTY, Slot};
     use crate::gpu::compute::wgsl_of_glsl;
     use crate::gpu::device::{Dispatch, groups};
     use crate::gpu::list::Passes;
-    use crate::gpu::pipeline::tests::{GREY, agree, built_in, image, turned};
+    use crate::gpu::pipeline::tests::{GREY, agree, built_in, image, model, shader, turned};
     use crate::gpu::tests::gpu;
-    use crate::gpu::{DeviceList, Gpu, GpuError, pipeline, tiles};
+    use crate::gpu::tiles::{self, TilePasses};
+    use crate::gpu::{DeviceList, Gpu, GpuError, pipeline};
     use crate::numeric::rng::stream;
-    use crate::oit::{self, Context};
-    use crate::pixel::FragmentList;
+    use crate::oit::neural::{Neural, Skip};
+    use crate::oit::{self, Context, Method};
+    use crate::pixel::{FragmentList, absorbance};
+    use crate::shader::MethodShader;
     use rand::RngExt;
     use rand::seq::SliceRandom;
 
@@ -78,6 +81,23 @@ mod tests {
 
     const SET: CoreSet = CoreSet::new(4, 2);
     const PLACE: CoreBinding = CoreBinding { group: 0, binding: 4 };
+
+    /// Methods of cores: beta laws by their K, and shipped networks by their names, on the CPU and as shaders.
+    fn methods(laws: &[usize], networks: &[&str]) -> Vec<(Box<dyn Method>, MethodShader)> {
+        let laws = laws.iter().map(|k| {
+            let method = oit::parse(&format!("core:{k}")).unwrap();
+            let shader = method.shader().unwrap();
+            (method, shader)
+        });
+        let networks = networks.iter().map(|name| {
+            let (mlp, shader) = (model(name), shader(&model(name)));
+            (Box::new(Neural::new(mlp)) as Box<dyn Method>, shader)
+        });
+        laws.chain(networks).collect()
+    }
+
+    /// The networks with a core that are shipped.
+    const NETWORKS: [&str; 3] = ["core-small", "core", "core-large"];
 
     /// A thread a fragment, the chain written in WGSL.
     const WGSL: &str = "
@@ -267,8 +287,48 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         let offsets: Vec<u32> = (0..=fragments.pixels as u32)
             .map(|p| fragments.pixel_of.partition_point(|&q| q < p) as u32)
             .collect();
-        let set = CoreSet::new(4, 2);
-        let text = |language| codes(SET, language) + &insert(language, PLACE) + &weigh(set, language);
+        let expected_slots = expected(SET, &fragments);
+        let law = |language| codes(SET, language) + &insert(language, PLACE) + &weigh(SET, language);
+        both_passes(
+            "law",
+            gpu,
+            &fragments,
+            &offsets,
+            &expected_slots,
+            &law,
+            &|own, core, n, b| weigh_by_law(own, core, n, [b[0], b[1], b[2]], SET.layout.depth_bits),
+        );
+        // The shipped network of as many slots, by the file that is pasted.
+        let mlp = model("core");
+        assert_eq!(mlp.feature_set().spec().core, Some(CoreSet::new(4, 4)));
+        let chain = |language| {
+            let (from, to) = (insert(language, CoreBinding::DEFAULT), insert(language, PLACE));
+            chain(&mlp, language, None).unwrap().replace(&from, &to)
+        };
+        both_passes(
+            "network",
+            gpu,
+            &fragments,
+            &offsets,
+            &expected_slots,
+            &chain,
+            &|own, core, n, b| weigh_by_mlp(own, core, n, b, SET.layout.depth_bits, &mlp),
+        );
+    }
+
+    /// A fragment's transmittance of itself, its pixel's core, n, and b_0..b_4.
+    type Weigh<'a> = dyn Fn(Entry<f32>, &[Entry<f32>], f32, [f32; 5]) -> f32 + 'a;
+
+    /// Runs both passes of a file in GLSL and HLSL, and compares slots and transmittances.
+    fn both_passes(
+        name: &str,
+        gpu: &Gpu,
+        fragments: &Fragments,
+        offsets: &[u32],
+        expected_slots: &[u32],
+        text: &dyn Fn(CoreLanguage) -> String,
+        weigh: &Weigh<'_>,
+    ) {
         let plain = |language| without_atomics(&text(language), language).unwrap();
         let glsl = plain(CoreLanguage::Glsl);
         let mut sources = vec![("GLSL", wgsl_of_glsl(&format!("#version 450\n{glsl}{GLSL}")).unwrap())];
@@ -280,8 +340,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             }
             Err(why) => println!("HLSL is skipped: {why}"),
         }
-        let expected_slots = expected(SET, &fragments);
-        let expected = expected_weights(&fragments, &offsets, &expected_slots);
+        let expected = expected_weights(fragments, offsets, expected_slots, weigh);
         for (language, source) in sources {
             let pipeline = gpu.compute(language, &source, "main").unwrap();
             let parameters = [fragments.range.0, fragments.range.1, fragments.pixels as f32, 0.0];
@@ -289,7 +348,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             let weights = gpu.zeros("weights", 4 * fragments.view_z.len() as u64).unwrap();
             let buffers = [
                 &gpu.upload("parameters", &parameters).unwrap(),
-                &gpu.upload("offsets", &offsets).unwrap(),
+                &gpu.upload("offsets", offsets).unwrap(),
                 &gpu.upload("view_z", &fragments.view_z).unwrap(),
                 &gpu.upload("absorbance", &fragments.absorbance).unwrap(),
                 &core,
@@ -305,7 +364,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             assert!(
                 slots == expected_slots,
                 "{language}: {}",
-                differing(&slots, &expected_slots)
+                differing(&slots, expected_slots)
             );
             let found: Vec<f32> = gpu.download(&weights, expected.len()).unwrap();
             let off = |shift: usize| {
@@ -314,13 +373,22 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
                 off.sort_by(f32::total_cmp);
                 off[off.len() * 999 / 1000]
             };
-            println!("{language}: 99.9 % within {:.1e}, another's {:.1e}", off(0), off(1));
-            assert!(off(0) <= 1e-4 && off(1) > 0.1, "{language}: {} {}", off(0), off(1));
+            println!(
+                "{name}, {language}: 99.9 % within {:.1e}, another's {:.1e}",
+                off(0),
+                off(1)
+            );
+            assert!(
+                off(0) <= 1e-4 && off(1) > 0.1,
+                "{name}, {language}: {} {}",
+                off(0),
+                off(1)
+            );
         }
     }
 
     /// Transmittances by the CPU's formula in f32, sums in the order of the list.
-    fn expected_weights(fragments: &Fragments, offsets: &[u32], slots: &[u32]) -> Vec<f32> {
+    fn expected_weights(fragments: &Fragments, offsets: &[u32], slots: &[u32], weigh: &Weigh<'_>) -> Vec<f32> {
         let codes = SET.layout.codes(fragments.range.0, fragments.range.1);
         let entry = |f: CoreFragment| Entry {
             z: codes.moment_depth(f.depth_step),
@@ -336,23 +404,22 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             let own: Vec<CoreFragment> = range
                 .map(|i| codes.fragment(fragments.view_z[i], fragments.absorbance[i]))
                 .collect();
-            let (mut n, mut b) = (0.0f32, [0.0f32; 3]);
+            let (mut n, mut b) = (0.0f32, [0.0f32; 5]);
             for f in own.iter().filter(|f| f.absorbance_step > 0) {
                 let Entry { z, absorbance } = entry(*f);
                 n += 1.0;
-                b[0] += absorbance;
-                b[1] += absorbance * z;
-                b[2] += absorbance * z * z;
+                let mut term = absorbance;
+                for b in &mut b {
+                    *b += term;
+                    term *= z;
+                }
             }
             let core: Vec<Entry<f32>> = slots[p * stride(SET)..][..SET.slots()]
                 .iter()
                 .enumerate()
                 .map(|(place, &code)| codes.decode(Slot::at(place), code).map_or(empty, entry))
                 .collect();
-            weights.extend(
-                own.iter()
-                    .map(|&f| weigh_by_law(entry(f), &core, n, b, codes.depth_bits)),
-            );
+            weights.extend(own.iter().map(|&f| weigh(entry(f), &core, n, b)));
         }
         weights
     }
@@ -435,13 +502,12 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let Some(gpu) = gpu() else { return };
         for scene in ["sphere-cluster", "foliage", "hair"] {
             let list = built_in(scene, 48);
-            for name in ["core:0", "core:4", "core:6"] {
-                let method = oit::parse(name).unwrap();
+            for (method, shader) in methods(&[0, 4, 6], &NETWORKS) {
+                let name = method.name();
                 let weights = |list: &FragmentList| {
                     let accumulated = method.accumulate(list, Context::default()).unwrap();
                     oit::weights(list, &*accumulated)
                 };
-                let shader = method.shader().unwrap();
                 let on_device = DeviceList::new(gpu, &list).unwrap();
                 let range = shader.depth_range(&list, None, None).unwrap();
                 let passes = Passes::new(gpu, &on_device, &shader, range).unwrap();
@@ -463,15 +529,14 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let Some(gpu) = gpu() else { return };
         for scene in ["sphere-cluster", "glass-stacks"] {
             let list = built_in(scene, 64);
-            for name in ["core:2", "core:6"] {
-                let method = oit::parse(name).unwrap();
+            for (method, shader) in methods(&[2, 6], &NETWORKS) {
+                let name = method.name();
                 let image_of = |list: &FragmentList| {
                     let accumulated = method.accumulate(list, Context::default()).unwrap();
                     let weights = oit::weights(list, &*accumulated);
                     evaluate::image::of_method(list, &*accumulated, &weights, GREY.map(f64::from)).unwrap()
                 };
                 let cpu = image_of(&list);
-                let shader = method.shader().unwrap();
                 let drawn = pipeline::render(gpu, &shader, &list, None, None, GREY).unwrap();
                 let computed = tiles::render(gpu, &shader, &list, None, None, GREY).unwrap();
                 for rendered in [drawn, computed] {
@@ -482,6 +547,49 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
                         "{scene}, {name}: turned round"
                     );
                 }
+            }
+        }
+    }
+
+    /// Pixels that need no network are told apart without another bit in the image: those whose core holds all
+    /// fragments that absorb, but one, or but two with three moments or more. Control: a network that answers otherwise
+    /// changes the others, and only them.
+    #[test]
+    fn known_pixels_need_no_network() {
+        let Some(gpu) = gpu() else { return };
+        for (scene, size) in [("sphere-cluster", 60), ("foliage", 41)] {
+            let list = built_in(scene, size);
+            for network in NETWORKS {
+                let method = shader(&model(network));
+                let set = method.core.unwrap();
+                let range = method.depth_range(&list, None, None).unwrap();
+                let on_device = DeviceList::new(gpu, &list).unwrap();
+                let image = |method: &MethodShader, skip| {
+                    let passes = TilePasses::new(gpu, &on_device, method, range, GREY).unwrap();
+                    passes.run(gpu, skip).unwrap();
+                    let bits = |c: &[f32; 3]| c.map(f32::to_bits);
+                    let image: Vec<_> = passes.image(gpu).unwrap().iter().map(bits).collect();
+                    (image, passes.counts(gpu).unwrap())
+                };
+                let (plain, (apart, counts)) = (image(&method, Skip::None).0, image(&method, Skip::Exact));
+                let codes = set.layout.codes(range[0], range[1]);
+                let absorbs = |(&v, &a): (&f32, &f32)| codes.fragment(v, absorbance(a) as f32).absorbance_step > 0;
+                let many = |p: &usize| {
+                    let pixel = list.pixel(*p);
+                    pixel.view_z.iter().zip(pixel.alpha).filter(|&f| absorbs(f)).count() > known_fragments(set)
+                };
+                let listed: Vec<usize> = (0..list.pixels()).filter(many).collect();
+                let expected = listed.len();
+                println!("{scene}, {network}: {counts:?}");
+                assert!(plain == apart, "{scene}, {network}");
+                assert_eq!(counts.network as usize, expected, "{scene}, {network}");
+                assert!(expected > 0 && counts.known > 0);
+                let source = method.source.replace("min(-logit, 80.0)", "min(2.0 - logit, 80.0)");
+                assert_ne!(source, method.source);
+                let other = image(&MethodShader { source, ..method }, Skip::Exact).0;
+                let differ: Vec<usize> = (0..list.pixels()).filter(|&p| other[p] != plain[p]).collect();
+                assert!(differ.len() * 2 > expected, "{scene}, {network}: the control");
+                assert!(differ.iter().all(|p| listed.contains(p)), "{scene}, {network}");
             }
         }
     }
@@ -550,15 +658,14 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let (view_z, alpha) = pixels.iter().flat_map(|p| p.1.iter().copied()).unzip();
         let list = FragmentList::new(offsets, view_z, alpha, None).unwrap();
         let range = Some((1e-3, 1e3));
-        for name in ["core:0", "core:4", "core:6"] {
-            let method = oit::parse(name).unwrap();
+        for (method, shader) in methods(&[0, 4, 6], &NETWORKS) {
+            let name = method.name();
             let context = Context {
                 depth_range: range,
                 ..Context::default()
             };
             let accumulated = method.accumulate(&list, context).unwrap();
             let cpu = oit::weights(&list, &*accumulated);
-            let shader = method.shader().unwrap();
             let on_device = DeviceList::new(gpu, &list).unwrap();
             let measured = shader.depth_range(&list, None, range).unwrap();
             let passes = Passes::new(gpu, &on_device, &shader, measured).unwrap();

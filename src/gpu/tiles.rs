@@ -389,8 +389,7 @@ mod tests {
     fn what_is_left_out_cannot_be_seen() {
         let Some(gpu) = gpu() else { return };
         let mut controls = 0;
-        // Splats are far outside of what these networks were trained for, and they are not held to the bound there.
-        for name in crate::scene::BUILT_IN.into_iter().filter(|&n| n != "splats") {
+        for name in crate::scene::BUILT_IN {
             let list = built_in(name, 96);
             for network in ["recommended", "small"] {
                 let mlp = model(network);
@@ -483,8 +482,9 @@ mod tests {
         Mlp::new("biased", mlp.feature_set(), layers, crate::model::Provenance::default()).unwrap()
     }
 
-    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, and
-    /// the image is that of none. Control: with answers that weigh enough, it is not.
+    /// Where a network's answers weigh too little for the bound, it is evaluated for hidden fragments after all, once
+    /// for each, and the image is that of none but for the order of its sums, 1e-5. Control: with answers that weigh
+    /// enough, it is not evaluated.
     #[test]
     fn doubtful_pixels_are_asked_about() {
         let Some(gpu) = gpu() else { return };
@@ -494,16 +494,19 @@ mod tests {
         let list = few(8, &vec![&pixel[..]; 64]);
         let evaluated = |bias: f32| {
             let passes = passes(gpu, &list, &shader(&biased("recommended", bias)));
-            let none = shaded(gpu, &passes, Skip::None);
-            let visible = shaded(gpu, &passes, Skip::Visible);
+            let of = |skip| {
+                passes.run(gpu, skip).unwrap();
+                image(&list, &passes.image(gpu).unwrap())
+            };
+            let change = differences(&of(Skip::None), &of(Skip::Visible))[63];
             assert_eq!(passes.counts(gpu).unwrap().hiding, 64);
-            (passes.evaluated(gpu).unwrap(), none == visible)
+            (passes.evaluated(gpu).unwrap(), change)
         };
-        let (doubtful, same) = evaluated(40.0);
+        let (doubtful, change) = evaluated(40.0);
         let (usual, _) = evaluated(0.0);
         println!("{doubtful} and {usual} of {}", list.len());
         assert!(
-            same && doubtful >= list.len() as u64 && usual < list.len() as u64 * 3 / 4,
+            change <= 1e-5 && doubtful == list.len() as u64 && usual < list.len() as u64 * 3 / 4,
             "{doubtful} {usual}"
         );
     }

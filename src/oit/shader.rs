@@ -77,9 +77,10 @@ pub struct MethodShader {
 /// Functions that a method's source may have beside `oit_accumulate` and `oit_weight`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Offers {
-    /// A shorter way in pixels of up to four fragments, or of fragments at one depth: `fn oit_short_weight(f, p)`,
-    /// there the same numbers; with it `fn oit_end_weight(f, p)`, the same number where a fragment is an end of its
-    /// pixel or has next to nothing beside it, else −1.
+    /// A shorter way in pixels of up to four fragments or of fragments at one depth, or where the core holds all but
+    /// one or two: `fn oit_short_weight(f, p)`, there the same numbers. Methods without a core have with it `fn
+    /// oit_end_weight(f, p)`, the same number where a fragment is an end of its pixel or has next to nothing beside it,
+    /// else −1.
     pub short_weight: bool,
     /// What spares a network what cannot be seen: `fn oit_visible_weight(f, p)`, `fn oit_faint_weight(f, p)`, `fn
     /// oit_first_hidden_depth(p: OitPixel) -> f32` and `fn oit_hidden_weight(f, p)`, as

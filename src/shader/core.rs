@@ -1,6 +1,7 @@
 //! Text of the passes of methods that keep a core.
 
 use crate::export::core::{CoreLanguage, codes, stride, weigh, weigh_by_network};
+use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
 /// Prelude and method of a core whose tail is shared out by a network, of which this is the export, or where there is
@@ -19,17 +20,40 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
         true => format!("p.sums[{}]", k + 1),
         false => "0.0".to_owned(),
     };
-    let moments = listed((0..4).map(sum).collect());
+    let moments = format!("vec4<f32>({})", listed((0..4).map(sum).collect()));
+    let short = match network {
+        "" => String::new(),
+        _ => short(&weigh, &slots, &moments),
+    };
     let prelude = include_str!("core/prelude.wgsl")
-        .replace("OIT_PIXEL_MOMENTS", &format!("vec4<f32>({moments})"))
+        .replace("OIT_PIXEL_MOMENTS", &moments)
         .replace("OIT_MOMENTS", &added)
         .replace("OIT_SLOTS", &slots);
     format!(
-        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}",
+        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}{short}",
         set.moments + 2,
         codes(set, CoreLanguage::Wgsl),
         weigh,
         include_str!("absorbance.wgsl"),
+    )
+}
+
+/// The weight in pixels that need no network, which is the network's weight without it: `oit_short_weight`.
+fn short(weigh: &str, slots: &str, moments: &str) -> String {
+    let (before, call) = weigh.split_once(&format!("{ENTRY}(")).expect("a call of the network");
+    let mut open = 1;
+    let end = call.find(|c| {
+        open += i32::from(c == '(') - i32::from(c == ')');
+        open == 0
+    });
+    let mut text = format!("{before}1.0{}", &call[end.expect("the end of the call") + 1..]);
+    for line in weigh.lines().filter_map(|line| line.strip_prefix("fn ")) {
+        let name = line.split('(').next().expect("a name");
+        text = text.replace(&format!("{name}("), &format!("{}_known(", name.replace("nmt_", "oit_")));
+    }
+    format!(
+        "{text}\nfn oit_short_weight(f: OitFragment, p: OitPixel) -> f32 {{\n    return oit_core_transmittance_known(\
+         f.steps, oit_codes(), {slots}, p.sums[OIT_SUMS - 1u], p.sums[0], {moments});\n}}\n"
     )
 }
 

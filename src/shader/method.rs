@@ -40,8 +40,13 @@ impl MethodShader {
                     core.moments
                 )));
             }
+            let offers = Offers {
+                short_weight: true,
+                visibility: false,
+            };
             return Ok(Self {
                 source: export,
+                offers,
                 ..Self::of_core(name, core)
             });
         }

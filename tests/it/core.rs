@@ -1,7 +1,9 @@
 //! Core and tail as a user meets it: files that are exported and checked, and the code in docs/core.md.
 
 use assert_cmd::cargo::cargo_bin_cmd;
-use nmt::export::core::{CoreLanguage, named, text};
+use nmt::export::core::{CoreLanguage, chain, named, text};
+use nmt::model::shipped;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn wgsl(source: &str) -> Result<(), String> {
@@ -14,12 +16,14 @@ fn wgsl(source: &str) -> Result<(), String> {
         .map_err(|e| e.emit_to_string(source))
 }
 
-/// Both passes of the page compile behind the exported file. Control: with a function misspelt neither does.
+/// Both passes of the page compile behind the exported files, that of a network among them. Control: with a function
+/// misspelt neither does.
 #[test]
 fn the_page_compiles() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/core.md");
     let page = std::fs::read_to_string(page).unwrap();
     let export = text(named("core:4").unwrap(), CoreLanguage::Wgsl);
+    let network = chain(&shipped::open(Path::new("core")).unwrap(), CoreLanguage::Wgsl, None).unwrap();
     let blocks: Vec<&str> = page
         .split("```wgsl\n")
         .skip(1)
@@ -28,6 +32,7 @@ fn the_page_compiles() {
     assert_eq!(blocks.len(), 2, "pass 1 and pass 2");
     for block in blocks {
         wgsl(&format!("{export}\n{block}")).unwrap();
+        wgsl(&format!("{network}\n{block}")).unwrap();
         assert!(wgsl(&format!("{export}\n{}", block.replace("nmt_core_steps", "nmt_steps"))).is_err());
     }
 }
@@ -47,4 +52,45 @@ fn files_are_exported_and_checked() {
     run(&["check", "core:3", "--exports", "shaders"]).code(1);
     run(&["export", "core:3", "--out", "shaders", "--force"]).success();
     run(&["check", "core:3", "--exports", "shaders"]).success();
+}
+
+/// Both passes of a network on the command line: written beside its formats, listed in `--json`, checked with them.
+/// Control: a file with another bias fails.
+#[test]
+fn networks_are_exported_with_their_core() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| cargo_bin_cmd!("nmt").current_dir(&folder).args(arguments).assert();
+    let export = run(&[
+        "export",
+        "core",
+        "--format",
+        "wgsl,glsl,json",
+        "--out",
+        "shaders",
+        "--json",
+    ])
+    .success();
+    let json: serde_json::Value = serde_json::from_slice(&export.get_output().stdout).unwrap();
+    let files: Vec<&str> = json["results"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|result| result["file"].as_str().unwrap().rsplit('/').next().unwrap())
+        .collect();
+    let expected = [
+        "core.wgsl",
+        "core.glsl",
+        "core.json",
+        "core.chain.wgsl",
+        "core.chain.glsl",
+    ];
+    assert_eq!(files.iter().collect::<BTreeSet<_>>(), expected.iter().collect());
+    let check = || run(&["check", "core", "--exports", "shaders", "--format", "glsl"]);
+    check().success();
+    let file = folder.path().join("shaders/core.chain.glsl");
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, text.replace("min(-logit, 80.0)", "min(0.1 - logit, 80.0)")).unwrap();
+    check().code(1);
+    std::fs::remove_file(&file).unwrap();
+    check().code(1);
 }

@@ -1,9 +1,14 @@
-//! Files of a core whose tail is a beta law, ready to be included.
+//! Files of a core, ready to be included: with a tail that is a beta law, or with the network that shares it out.
 
-use super::{CoreBinding, CoreLanguage, codes, insert, weigh, weigh_by_network};
-use crate::export::ExportError;
+use super::{CoreBinding, CoreLanguage, MAX_SHADER_MOMENTS, codes, insert, weigh, weigh_by_network};
+use crate::export::calls::write_resolve;
+use crate::export::files::ShaderFile;
+use crate::export::shader::{include_guard, source};
+use crate::export::{ExportError, Prefix};
 use crate::features::core::CoreSet;
+use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
+use crate::numeric::source::Source;
 use std::path::{Path, PathBuf};
 
 /// Moments of a core that is asked for by name: mean and spread need two.
@@ -15,13 +20,17 @@ pub fn named(name: &str) -> Option<CoreSet> {
     (heavy <= crate::features::core::code::MAX_HEAVY).then(|| CoreSet::new(heavy, MOMENTS))
 }
 
-/// Name of a core's file in a language.
-pub fn file_name(set: CoreSet, language: CoreLanguage) -> String {
-    let ending = match language {
+fn ending(language: CoreLanguage) -> &'static str {
+    match language {
         CoreLanguage::Wgsl => "wgsl",
         CoreLanguage::Glsl => "glsl",
         CoreLanguage::Hlsl => "hlsl",
-    };
+    }
+}
+
+/// Name of a core's file in a language.
+pub fn file_name(set: CoreSet, language: CoreLanguage) -> String {
+    let ending = ending(language);
     match set.moments {
         MOMENTS => format!("core-{}.{ending}", set.heavy),
         moments => format!("core-{}-{moments}.{ending}", set.heavy),
@@ -31,35 +40,97 @@ pub fn file_name(set: CoreSet, language: CoreLanguage) -> String {
 /// The whole file in a language: how to use it, codes, insertion chain and weight.
 pub fn text(set: CoreSet, language: CoreLanguage) -> String {
     let insert = insert(language, CoreBinding::DEFAULT);
-    format!(
-        "{}\n{}\n{insert}{}",
-        about(set),
-        codes(set, language),
-        weigh(set, language)
-    )
+    let (about, codes) = (about(set), codes(set, language));
+    format!("{about}\n{codes}\n{insert}{}", weigh(set, language))
 }
 
-/// The whole file of a core whose tail a network shares out, around the export of that network.
-///
-/// # Panics
-/// As [`weigh_by_network`].
-pub fn text_with_network(set: CoreSet, language: CoreLanguage, network: &str) -> String {
-    let insert = insert(language, CoreBinding::DEFAULT);
-    let weigh = weigh_by_network(set, language);
-    format!("{}\n{network}\n{}\n{insert}{weigh}", about(set), codes(set, language))
-}
-
-/// How to use such a file, as a comment.
+/// How to use a core's file, as a comment.
 fn about(set: CoreSet) -> String {
     let about = include_str!("about.txt")
         .replace("CORE_HEAVY", &set.heavy.to_string())
         .replace("CORE_SLOTS", &super::stride(set).to_string())
         .replace("CORE_MOMENTS", &set.moments.to_string())
         .replace("CORE_VERSION", env!("CARGO_PKG_VERSION"));
-    about
-        .lines()
-        .map(|line| format!("// {line}").trim_end().to_owned() + "\n")
-        .collect()
+    let line = |line: &str| format!("// {line}").trim_end().to_owned() + "\n";
+    about.lines().map(line).collect()
+}
+
+/// What the names of files with a network and its core end with, before the ending of the language.
+const CHAIN: &str = "chain";
+
+/// Whether a network's core is written as a file: it has one, of no more moments than a vector holds.
+pub fn has_chain(mlp: &Mlp) -> bool {
+    let core = mlp.feature_set().spec().core;
+    core.is_some_and(|set| set.moments <= MAX_SHADER_MOMENTS)
+}
+
+/// Name of the file of a network with its core in a language.
+pub fn chain_name(mlp: &Mlp, language: CoreLanguage) -> String {
+    format!("{}.{CHAIN}.{}", mlp.name(), ending(language))
+}
+
+/// The whole file of a network that shares out the tail of a core: how to use it, the network, codes, insertion chain
+/// and weight. It is all that both passes include.
+///
+/// # Errors
+/// As of the network's own export.
+///
+/// # Panics
+/// If the network has no such core; see [`has_chain`].
+pub fn chain(mlp: &Mlp, language: CoreLanguage, prefix: Option<&Prefix>) -> Result<String, ExportError> {
+    let set = set_of(mlp);
+    let network = source(mlp, language.format(), None)?;
+    let text = network + &calls(mlp, language, CoreBinding::DEFAULT);
+    let text = match language {
+        CoreLanguage::Wgsl => text,
+        // A second inclusion is none.
+        _ => {
+            let guard = include_guard(&format!("{}_{CHAIN}", mlp.name()));
+            format!("#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n")
+        }
+    };
+    let text = format!("{}\n{text}", about(set));
+    Ok(match prefix {
+        Some(prefix) => format!("// {}\n{}", prefix.line(), prefix.apply(&text)),
+        None => text,
+    })
+}
+
+/// What stands behind the export of a network that shares out the tail of a core: codes, insertion chain, weight and
+/// `nmt_resolve`.
+///
+/// # Panics
+/// If the network has no such core; see [`has_chain`].
+pub fn calls(mlp: &Mlp, language: CoreLanguage, place: CoreBinding) -> String {
+    let set = set_of(mlp);
+    let (codes, insert) = (codes(set, language), insert(language, place));
+    let resolve = Source::new(language.dialect(), "nmt");
+    write_resolve(&resolve);
+    let weigh = weigh_by_network(set, language);
+    format!("\n{codes}\n{insert}{weigh}{}", resolve.into_text())
+}
+
+fn set_of(mlp: &Mlp) -> CoreSet {
+    mlp.feature_set().spec().core.expect("a network with a core")
+}
+
+/// The files of a network with its core, in some languages; none where it has no core for shaders.
+///
+/// # Errors
+/// As [`chain`].
+pub fn chain_files(
+    mlp: &Mlp,
+    languages: &[CoreLanguage],
+    prefix: Option<&Prefix>,
+) -> Result<Vec<ShaderFile>, ExportError> {
+    let languages = if has_chain(mlp) { languages } else { &[] };
+    let file = |&language: &CoreLanguage| {
+        Ok(ShaderFile {
+            path: chain_name(mlp, language),
+            text: chain(mlp, language, prefix)?,
+        })
+    };
+    languages.iter().map(file).collect()
 }
 
 /// Writes a core's files into a folder.

@@ -11,9 +11,10 @@ mod file;
 mod interleaving;
 pub mod weigh;
 
-pub use file::{file_name, named, text, text_with_network, write};
-pub use weigh::{MAX_SHADER_MOMENTS, weigh, weigh_by_network};
+pub use file::{calls, chain, chain_files, chain_name, file_name, has_chain, named, text, write};
+pub use weigh::{MAX_SHADER_MOMENTS, known_fragments, weigh, weigh_by_network};
 
+use crate::export::Format;
 use crate::features::core::CoreSet;
 
 /// A language that the core is written in.
@@ -25,6 +26,26 @@ pub enum CoreLanguage {
     Glsl,
     /// HLSL, shader model 5.
     Hlsl,
+}
+
+impl CoreLanguage {
+    /// Every one.
+    pub const ALL: [Self; 3] = [Self::Wgsl, Self::Glsl, Self::Hlsl];
+
+    /// The format of a network that its core stands behind.
+    pub fn format(self) -> Format {
+        match self {
+            Self::Wgsl => Format::WGSL,
+            Self::Glsl => Format::GLSL,
+            Self::Hlsl => Format::HLSL,
+        }
+    }
+}
+
+/// Languages among formats, in which a network's core is written beside it.
+pub fn chain_languages(formats: &[Format]) -> Vec<CoreLanguage> {
+    let wanted = |language: &CoreLanguage| formats.contains(&language.format());
+    CoreLanguage::ALL.into_iter().filter(wanted).collect()
 }
 
 /// Where a shader finds the buffer of slots.

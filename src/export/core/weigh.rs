@@ -1,4 +1,4 @@
-//! Pass 2 of a core whose tail is a beta law, as shader source.
+//! Pass 2 of a core whose tail a beta law or a network shares out, as shader source.
 //!
 //! The formulas are those of [`crate::features::core::formulas`], written out by the expressions of [`Source`]; only
 //! the slots are unpacked by text.
@@ -12,6 +12,7 @@ use crate::features::core::formulas::{
     absorbance_of, described, fixed_features, normalised, place_noise, recentred, share_by_law, share_of_one,
     share_of_two, transmittance, without,
 };
+use crate::model::Mlp;
 use crate::numeric::real::{Constant, Real, c};
 use crate::numeric::source::{Dialect, Expression, Source, Type};
 
@@ -19,7 +20,7 @@ use crate::numeric::source::{Dialect, Expression, Source, Type};
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
 impl CoreLanguage {
-    fn dialect(self) -> &'static dyn Dialect {
+    pub(super) fn dialect(self) -> &'static dyn Dialect {
         match self {
             Self::Wgsl => &Wgsl,
             Self::Glsl => &Glsl,
@@ -38,6 +39,16 @@ impl CoreLanguage {
 
 /// Most moments of a core in shaders: those of a vector.
 pub const MAX_SHADER_MOMENTS: usize = 4;
+
+/// Fragments of the tail that are exact beside the fragment itself, and half of one more.
+const fn exact_tail(moments: usize) -> f64 {
+    if moments >= 3 { 2.5 } else { 1.5 }
+}
+
+/// Pixels of up to so many fragments that absorb need no network: the core holds all but one, or but two.
+pub fn known_fragments(set: CoreSet) -> usize {
+    set.slots() + exact_tail(set.moments) as usize
+}
 
 /// Who shares out a tail of which nothing is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,6 +169,14 @@ struct Query<R: Real, const N: usize> {
     is_exact: R::Mask,
 }
 
+impl<R: Real, const N: usize> Query<R, N> {
+    /// What a network is asked, in the order of the feature set's columns.
+    fn features(&self) -> Vec<R> {
+        let fixed = fixed_features(self.x, self.count, self.tail, self.m);
+        fixed.into_iter().chain(described(self.m).into_iter().skip(1)).collect()
+    }
+}
+
 /// Takes the core and the fragment itself out of its pixel's sums.
 #[inline(always)]
 fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R; N], depth_bits: u32) -> Query<R, N> {
@@ -205,7 +224,6 @@ fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R;
     let before_all = count.lt(c(0.5)) | own.z.le(near);
     exact = R::select(behind_all, one, exact).named("exact");
     exact = R::select(before_all, zero, exact).named("exact");
-    let most = if N > 3 { 2.5 } else { 1.5 };
     Query {
         front,
         tail: absorbance,
@@ -213,7 +231,7 @@ fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R;
         x,
         count,
         exact,
-        is_exact: count.lt(c(most)) | own.z.ge(far) | own.z.le(near),
+        is_exact: count.lt(c(exact_tail(N - 1))) | own.z.ge(far) | own.z.le(near),
     }
 }
 
@@ -233,6 +251,25 @@ pub fn weigh_by_law<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n
     let law = share_by_law(q.x, q.m[1], spread).named("law");
     let share = R::select(q.is_exact, q.exact, law).named("share");
     transmittance(q.front, q.tail, share)
+}
+
+/// [`weigh_by_law`] with a network in the law's place.
+///
+/// # Shapes
+/// As [`weigh_by_law`]; the network's feature set has a core and N − 1 moments.
+pub fn weigh_by_mlp<const N: usize>(
+    own: Entry<f32>,
+    core: &[Entry<f32>],
+    n: f32,
+    b: [f32; N],
+    depth_bits: u32,
+    mlp: &Mlp,
+) -> f32 {
+    let q = query(own, core, n, b, depth_bits);
+    match q.is_exact {
+        true => transmittance(q.front, q.tail, q.exact),
+        false => (-q.front).exp() * mlp.forward::<f32>(&q.features()),
+    }
 }
 
 /// `nmt_core_weigh`: the formulas on numbers.
@@ -278,9 +315,7 @@ fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, 
     transmittance(q.front, q.tail, q.exact).named("known");
     source.statement("return known;");
     source.end_if();
-    let fixed = fixed_features(q.x, q.count, q.tail, q.m);
-    let features: Vec<_> = fixed.into_iter().chain(described(q.m).into_iter().skip(1)).collect();
-    let row = source.numbers(&features);
+    let row = source.numbers(&q.features());
     let answer = source.call(ENTRY, &[row]);
     source.return_value((-q.front).exp() * answer);
 }

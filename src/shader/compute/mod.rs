@@ -5,7 +5,7 @@
 
 use super::passes::{FRAME, composite};
 use super::{MethodShader, core};
-use crate::export::core::stride;
+use crate::export::core::{known_fragments, stride};
 use crate::features::core::CoreSet;
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
 use crate::oit::shader::{Composite, Pass1};
@@ -222,13 +222,16 @@ impl TileShaders {
 fn classify(method: &MethodShader, visible: bool) -> String {
     let offers = method.offers;
     // What has no short form needs the long one wherever there is a fragment.
-    let (known, short) = if offers.short_weight {
-        (
-            "state.n <= 4.0 || state.nearest >= state.farthest",
+    let (known, short) = match method.core {
+        Some(set) if offers.short_weight => (
+            format!("state.sums[OIT_SUMS - 1u] <= {}.0", known_fragments(set)),
             "oit_short_weight(f, state)",
-        )
-    } else {
-        ("state.n == 0.0", "0.0")
+        ),
+        None if offers.short_weight => (
+            "state.n <= 4.0 || state.nearest >= state.farthest".to_owned(),
+            "oit_short_weight(f, state)",
+        ),
+        _ => ("state.n == 0.0".to_owned(), "0.0"),
     };
     let (kinds, weight) = if visible && offers.visibility {
         let faint = format!("select({short}, oit_faint_weight(f, state), faint && !known)");
@@ -241,7 +244,7 @@ fn classify(method: &MethodShader, visible: bool) -> String {
     };
     include_str!("classify.wgsl")
         .replace("OIT_KINDS", kinds.trim_end())
-        .replace("OIT_KNOWN", known)
+        .replace("OIT_KNOWN", &known)
         .replace("OIT_WEIGHT", &weight)
         .replace("OIT_FAINT", &format!("{FAINT:?}"))
         .replace("OIT_MIN_OPACITY", &format!("{MIN_OPACITY:?}"))
