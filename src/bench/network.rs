@@ -195,7 +195,7 @@ mod tests {
             (recentred.feature_set(), recentred.hidden()),
             (FeatureSet::Recentred, &[4][..])
         );
-        let errors = ["7", "", "7-x-1", "7-0-1", "7-32-16", "8-32-16-1", "7-99999-1"]
+        let errors = ["7", "", "7-x-1", "7-0-1", "7-32-16", "4-32-16-1", "7-99999-1"]
             .map(|text| text.parse::<Network>().unwrap_err().to_string());
         let other = recentred.on(FeatureSet::Recentred8).unwrap_err().to_string();
         insta::assert_snapshot!(errors.join("\n") + "\n" + &other);

@@ -308,9 +308,12 @@ fn by_law<R: Real, const N: usize>(query: &Query<N, R>) -> R {
     transmittance(query.front, query.tail, share)
 }
 
+/// What answers rows of features, given as columns.
+type Answer<'a> = dyn FnMut(&[Column], &mut [f32]) + 'a;
+
 /// Rows that wait for the network.
 struct Waiting<'a> {
-    answer: Box<dyn FnMut(&[Column], &mut [f32]) + 'a>,
+    answer: Box<Answer<'a>>,
     columns: Vec<Column>,
     /// Transmittance of the core in front of each.
     front: Column,

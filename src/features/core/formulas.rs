@@ -180,7 +180,7 @@ pub fn share_by_law<R: Real>(x: R, mean: R, spread: R) -> R {
 /// are the same, here of the tail alone and about its mean, where the polynomials need no system of equations.
 ///
 /// # Accuracy
-/// Moments are blended with those of the uniform law by [`BOUNDS_BIAS`], which keeps the bounds of few points finite
+/// Moments are blended with those of the uniform law by `BOUNDS_BIAS`, which keeps the bounds of few points finite
 /// and smooth, and moves them by about as much.
 #[inline(always)]
 pub fn bounds<R: Real, const N: usize>(x: R, m: [R; N]) -> [R; 2] {

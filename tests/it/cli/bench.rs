@@ -239,7 +239,7 @@ fn bench_infer_measures_networks() {
 fn bad_benchmarks() {
     for (arguments, message) in [
         (&["train", "--network", "7"][..], "network '7': it has no layer"),
-        (&["train", "--network", "8-4-1"], "no feature set is 8 wide"),
+        (&["train", "--network", "4-4-1"], "no feature set is 4 wide"),
         (&["train", "--batch", "0"], "--batch 0: must be"),
         (&["train", "--batch", "24"], "multiple of 16"),
         (&["train", "--backend", "abacus"], "abacus"),
