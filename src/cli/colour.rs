@@ -14,8 +14,9 @@ use crate::train::checkpoint::lock_path_for;
 use crate::train::colour::{ColourJob, train_colours};
 use crate::train::{Backend, TrainConfig};
 use anyhow::{Context, bail};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::Path;
 use std::time::Instant;
 
@@ -30,9 +31,8 @@ pub struct ColourConfig {
     colours: ColourLaw,
     train: TrainConfig,
     /// What a file that is extended says of measuring; the validation loss is an error of the image already.
-    #[serde(default, skip_serializing)]
-    #[allow(dead_code)]
-    evaluate: Option<Value>,
+    #[serde(default, rename = "evaluate", skip_serializing)]
+    _evaluate: IgnoredAny,
 }
 
 /// Its rows: one a pixel.
@@ -99,10 +99,7 @@ pub fn train(config: ColourConfig, arguments: &Train, replace: Replace, ui: &Ui)
     }
     let backend = Backend::try_from(options.backend)?;
     backend.adapter().context("--backend")?;
-    if let Some(epochs) = options.epochs {
-        config.train.epochs = epochs;
-        config.train.validate().context("--epochs")?;
-    }
+    options.set_epochs(&mut config.train)?;
     keep_inputs(&[&arguments.config], &arguments.out)?;
     let _lock = Lock::acquire(&lock_path_for(&arguments.out))?;
     may_write(&arguments.out, replace)?;
@@ -124,12 +121,7 @@ pub fn train(config: ColourConfig, arguments: &Train, replace: Replace, ui: &Ui)
         config: &config.train,
         seed: config.seed,
         backend,
-        provenance: Provenance {
-            source: format!("nmt {}", env!("CARGO_PKG_VERSION")),
-            commit: option_env!("NMT_COMMIT").map(str::to_owned),
-            config: Some(serde_json::to_value(&config).expect("a configuration is plain data")),
-            ..Provenance::default()
-        },
+        provenance: Provenance::of_this_program(serde_json::to_value(&config).expect("a configuration is plain data")),
     };
     let progress = ui.progress("train", config.train.epochs * config.train.seeds);
     let start = Instant::now();

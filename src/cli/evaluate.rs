@@ -17,8 +17,7 @@ use crate::evaluate::order::{fragment_orders, judge_in_orders};
 use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_floats, write_image, write_method};
 use crate::evaluate::{EvaluateError, Image, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
-use crate::model::{Mlp, shipped};
-use crate::numeric::file::{Replace, may_write, write_atomically};
+use crate::numeric::file::{Replace, may_write, read, write_atomically};
 use crate::oit::neural::Skip;
 use crate::oit::{Context, Method};
 use crate::pixel::FragmentList;
@@ -187,7 +186,7 @@ impl Evaluate {
         }
         let lists = session.lists(&scenes)?;
         let unfinished;
-        (unfinished, session.replace) = Unfinished::begin(&self.out, &self.networks()?, session.replace)?;
+        (unfinished, session.replace) = Unfinished::begin(&self.out, &self.model_files()?, session.replace)?;
         let mut results = Vec::new();
         for ((scene, name), list) in scenes.iter().zip(&names).zip(lists) {
             let found = match unfinished.restore(name, &list) {
@@ -215,11 +214,12 @@ impl Evaluate {
         Ok(Verdict::Fine)
     }
 
-    /// The networks among the methods.
-    fn networks(&self) -> anyhow::Result<Vec<Mlp>> {
-        let by_name = self.methods.iter().filter_map(|name| name.strip_prefix("neural:"));
-        let paths = self.model.iter().cloned().chain(by_name.map(PathBuf::from));
-        paths.map(|path| Ok(shipped::open(&path)?)).collect()
+    /// The model files that methods name, behind a colon, and those of `--model`.
+    fn model_files(&self) -> anyhow::Result<Vec<Vec<u8>>> {
+        let named = self.methods.iter().filter_map(|name| Some(name.split_once(':')?.1));
+        let paths = self.model.iter().cloned().chain(named.map(PathBuf::from));
+        let files = paths.filter(|path| path.is_file());
+        files.map(|path| Ok(read(&path)?)).collect()
     }
 
     /// Everything that can be refused before a scene is rendered.

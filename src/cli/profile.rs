@@ -228,8 +228,7 @@ impl Profile {
     fn simplify(&self, ui: &Ui, scene: &Scene<'_>, model: &Path, replace: Replace) -> anyhow::Result<Verdict> {
         let mlp = shipped::open(model)?;
         let rows = network::rows_of(scene, mlp.feature_set())?;
-        let Simplified { mlp: left, report } =
-            simplify(&mlp, &rows.features).with_context(|| model.display().to_string())?;
+        let Simplified { mlp: left, report } = simplify(&mlp, &rows).with_context(|| model.display().to_string())?;
         if !report.identical_bits {
             bail!(
                 "{}: without its silent units the network gives other bits, which is a fault of this program; nothing \

@@ -9,7 +9,7 @@ use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
 use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
-use crate::train::{Backend, BackendError, Outcome, train};
+use crate::train::{Backend, BackendError, Outcome, TrainConfig, train};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -83,11 +83,17 @@ impl TrainOptions {
             .and_then(Backend::adapter)
             .context("--backend")?;
         let mut config = Config::load(path)?;
-        if let Some(epochs) = self.epochs {
-            config.train.epochs = epochs;
-            config.train.validate().context("--epochs")?;
-        }
+        self.set_epochs(&mut config.train)?;
         Ok(config)
+    }
+
+    /// Replaces a configuration's number of epochs by the one that is asked for.
+    pub fn set_epochs(&self, config: &mut TrainConfig) -> anyhow::Result<()> {
+        if let Some(epochs) = self.epochs {
+            config.epochs = epochs;
+            config.validate().context("--epochs")?;
+        }
+        Ok(())
     }
 
     /// Refuses to run over a checkpoint unless told what to do about it.
@@ -232,12 +238,7 @@ pub fn fit(
     checkpoint: &Path,
     ui: &Ui,
 ) -> anyhow::Result<Option<Trained>> {
-    let provenance = Provenance {
-        source: format!("nmt {}", env!("CARGO_PKG_VERSION")),
-        commit: option_env!("NMT_COMMIT").map(str::to_owned),
-        config: Some(config.to_json()),
-        ..Provenance::default()
-    };
+    let provenance = Provenance::of_this_program(config.to_json());
     let backend = Backend::try_from(options.backend)?;
     let adapter = backend.adapter()?;
     let job = Job {

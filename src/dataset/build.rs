@@ -2,15 +2,19 @@
 
 use super::file::{ListSource, MANIFEST_VERSION, Manifest, Part};
 use super::{Dataset, RowStream, Rows};
-use crate::features::{Extracted, Extractor, FeatureSet, SumPrecision};
+use crate::features::{Extracted, Extractor, FeatureSet, Known, Sampled, SumPrecision};
 use crate::numeric::rng::stream;
 use crate::pixel::{DepthError, FragmentList};
 use crate::synth::{Purpose, Synth, SynthConfig, SynthError};
 use rand::seq::SliceRandom;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Keeps the random numbers of the split into training and validation pixels apart from all others.
 const SPLIT_PURPOSE: u64 = 0x1004;
+
+/// Keeps those that choose fragments behind a core apart from all others.
+const CORE_PURPOSE: u64 = 0x1012;
 
 /// Most rows that a dataset may be configured to have.
 pub const MAX_PAIRS: u64 = 1 << 30;
@@ -32,9 +36,6 @@ pub struct DatasetConfig {
     /// Precision in which moments are added up, where the feature set leaves that open.
     #[serde(default, skip_serializing_if = "is_default")]
     pub storage: SumPrecision,
-    /// How much each row counts in the loss.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub weights: Weighting,
     /// Share of the training rows that fresh pixels replace after every epoch; a fixed dataset where 0.
     #[serde(default, skip_serializing_if = "is_default")]
     pub refresh: f64,
@@ -43,19 +44,6 @@ pub struct DatasetConfig {
 /// Whether a value need not be written to a file.
 pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
-}
-
-/// How much a row counts in the loss.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum Weighting {
-    /// All alike.
-    #[default]
-    Uniform,
-    /// By what an error of its T does to the pixel's colour: alpha², times the rows that it stands for where only some
-    /// of a pixel's were chosen.
-    Image,
 }
 
 /// Why a dataset could not be built.
@@ -107,7 +95,7 @@ pub enum DatasetError {
 }
 
 impl DatasetConfig {
-    /// A fixed dataset of these sizes: every row of a pixel, moments in f32, all rows alike.
+    /// A fixed dataset of these sizes: every row of a pixel, moments in f32.
     pub fn of(features: FeatureSet, training_pairs: u64, validation_pairs: u64) -> Self {
         Self {
             features,
@@ -115,7 +103,6 @@ impl DatasetConfig {
             validation_pairs,
             rows_per_pixel: 0,
             storage: SumPrecision::default(),
-            weights: Weighting::default(),
             refresh: 0.0,
         }
     }
@@ -143,9 +130,15 @@ impl DatasetConfig {
 /// Features of a list's fragments and the exact answers that the feature set is trained on; fragments that need no
 /// network have no row.
 ///
+/// Of a set with a core the answers are those of the tail alone, and behind much core few fragments have a row, as in a
+/// stream of random pixels.
+///
 /// # Errors
 /// [`DepthError`] where a fragment's depth does not fit the feature set.
 pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthError> {
+    if extractor.set().spec().core.is_some() {
+        return Ok(rows_with_core(list, extractor));
+    }
     let Extracted { known, features } = extractor.list(list, 0..list.pixels())?;
     let targets = extractor.set().target().of_list(list);
     let pixels = (0..list.pixels()).flat_map(|p| std::iter::repeat_n(p as u32, list.pixel(p).len()));
@@ -153,7 +146,7 @@ pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthErr
         .iter()
         .zip(targets)
         .zip(pixels)
-        .filter(|((known, _), _)| known.is_none());
+        .filter(|((known, _), _)| matches!(known, Known::Front(_)));
     let (targets, pixels) = unknown.map(|((_, target), pixel)| (target as f32, pixel)).unzip();
     Ok(Rows {
         feature_set: extractor.set(),
@@ -162,6 +155,24 @@ pub fn rows(list: &FragmentList, extractor: &Extractor) -> Result<Rows, DepthErr
         weights: Vec::new(),
         pixels,
     })
+}
+
+/// [`rows`] of a set with a core.
+fn rows_with_core(list: &FragmentList, extractor: &Extractor) -> Rows {
+    let of_pixel = |p: usize| {
+        let mut sampled = Sampled::default();
+        let mut rng = stream(0, CORE_PURPOSE, p as u64);
+        extractor.sample(list.pixel(p), usize::MAX, &mut rng, &mut sampled);
+        sampled
+    };
+    let all: Vec<Sampled> = (0..list.pixels()).into_par_iter().map(of_pixel).collect();
+    let mut rows = Rows::none(extractor.set());
+    for (p, sampled) in all.into_iter().enumerate() {
+        rows.features.extend(sampled.features);
+        rows.targets.extend(sampled.targets);
+        rows.pixels.extend(std::iter::repeat_n(p as u32, sampled.of_pixel));
+    }
+    rows
 }
 
 /// Whole pixels of a purpose, from pixel 0 on, as many as it takes to hold `pairs` fragments. `progress` is told how
@@ -207,12 +218,9 @@ pub fn build(
             let rows = stream.take(pairs as usize, &|n| progress(before + n))?;
             Ok((rows, stream.position() as usize))
         };
-        let (mut training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
-        let (mut validation, validation_pixels) =
+        let (training, training_pixels) = part(Purpose::Training, config.training_pairs, 0)?;
+        let (validation, validation_pixels) =
             part(Purpose::Validation, config.validation_pairs, training.len() as u64)?;
-        normalise(&mut [&mut training.weights]);
-        // What is chosen by is the plain mean over rows, whatever training weighs.
-        validation.weights.clear();
         let pixels = [training_pixels, validation_pixels];
         return Ok(dataset(
             name,
@@ -259,23 +267,6 @@ pub fn pixels_of(manifest: &Manifest) -> Result<Option<[FragmentList; 2]>, Datas
         part(Purpose::Training, &manifest.training),
         part(Purpose::Validation, &manifest.validation),
     ]))
-}
-
-/// Scales weights, which may stand in several pieces, to a mean of 1.
-pub fn normalise(pieces: &mut [&mut [f32]]) {
-    let count: usize = pieces.iter().map(|weights| weights.len()).sum();
-    let mean = pieces
-        .iter()
-        .flat_map(|weights| weights.iter())
-        .map(|&w| f64::from(w))
-        .sum::<f64>()
-        / count.max(1) as f64;
-    if mean > 0.0 {
-        pieces
-            .iter_mut()
-            .flat_map(|weights| weights.iter_mut())
-            .for_each(|w| *w = (f64::from(*w) / mean) as f32);
-    }
 }
 
 /// Builds a dataset of pixels drawn at random, without repetition, from given lists; `lists` are their names, which the
@@ -476,6 +467,51 @@ pub(crate) mod tests {
             .map(|p| training.pixel(p).view_z[0].to_bits())
             .collect();
         assert!((0..validation.pixels()).all(|p| !starts.contains(&validation.pixel(p).view_z[0].to_bits())));
+    }
+
+    /// Rows of given lists with a core: features are those of the fragments that need the network, and targets the
+    /// transmittance of the tail, T over that of the core in front, to the steps of the codes. Control: T itself is
+    /// none.
+    #[test]
+    fn behind_a_core_the_tail_is_the_target() {
+        let list = Synth::new(SynthConfig::wide(), 3)
+            .unwrap()
+            .pixels(Purpose::Training, 0, 300);
+        let extractor = Extractor::for_list(FeatureSet::Core4x4, &list, None, None).unwrap();
+        let made = rows(&list, &extractor).unwrap();
+        assert!(made.len() > 1000 && made.weights.is_empty());
+        let width = FeatureSet::Core4x4.width();
+        let (mut compared, mut controls) = (0, 0);
+        // In thin pixels fragments share steps of depth, and rows are not told apart.
+        let is_thick = |p: &usize| {
+            let view_z = list.pixel(*p).view_z;
+            let (near, far) = view_z
+                .iter()
+                .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
+            far > 1.5 * near
+        };
+        for p in (0..list.pixels()).filter(is_thick) {
+            let Extracted { known, features } = extractor.list(&list, p..p + 1).unwrap();
+            let mut exact = vec![0.0; known.len()];
+            abuffer::transmittance(list.pixel(p), &mut exact);
+            let fronts = known.iter().zip(&exact).filter_map(|(known, &t)| match known {
+                Known::Front(front) => Some((f64::from(*front), t)),
+                Known::Transmittance(_) => None,
+            });
+            let all: Vec<_> = features.chunks_exact(width).zip(fronts).collect();
+            for i in (0..made.len()).filter(|&i| made.pixels[i] == p as u32) {
+                let row = &made.features[i * width..][..width];
+                let of_row = all.iter().find(|(features, _)| *features == row);
+                let (_, (front, t)) = of_row.expect("a row of the pixel's fragments");
+                if *front > 0.01 {
+                    let target = f64::from(made.targets[i]);
+                    assert!((target - t / front).abs() < 0.02, "{target} for {t} behind {front}");
+                    controls += usize::from((target - t).abs() > 0.02);
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 500 && controls > compared / 4, "{compared}, {controls}");
     }
 
     /// Of several chunks, and of a number that a pixel reaches exactly.

@@ -1,6 +1,6 @@
 //! Rows from random pixels, made while they are needed.
 
-use super::build::{DatasetConfig, DatasetError, Weighting};
+use super::build::{DatasetConfig, DatasetError};
 use super::{Row, Rows};
 use crate::features::{Extractor, Sampled};
 use crate::numeric::rng::stream;
@@ -27,8 +27,6 @@ pub struct Part {
     /// `[N, W]`, row by row.
     features: Vec<f32>,
     targets: Vec<f32>,
-    /// Empty where all rows count 1.
-    weights: Vec<f32>,
     /// Rows of each pixel.
     counts: Vec<u32>,
 }
@@ -47,21 +45,11 @@ impl Part {
     /// One of the rows, of features so wide.
     #[inline]
     pub fn row(&self, index: usize, width: usize) -> Row<'_> {
-        let weight = if self.weights.is_empty() {
-            1.0
-        } else {
-            self.weights[index]
-        };
         Row {
             features: &self.features[index * width..][..width],
             targets: &self.targets[index..=index],
-            weight,
+            weight: 1.0,
         }
-    }
-
-    /// How much each row counts; empty where all count 1.
-    pub fn weights_mut(&mut self) -> &mut [f32] {
-        &mut self.weights
     }
 
     /// Number of each row's pixel, that of the part's first pixel given.
@@ -83,7 +71,6 @@ impl Part {
             self.counts.truncate(last + 1);
             self.features.truncate(kept * width);
             self.targets.truncate(kept);
-            self.weights.truncate(kept);
         }
     }
 }
@@ -179,13 +166,11 @@ impl RowStream {
     /// [`DatasetError::NothingToLearn`].
     pub fn take(&mut self, pairs: usize, progress: &dyn Fn(u64)) -> Result<Rows, DatasetError> {
         let set = self.config.features;
-        let weighted = self.config.weights != Weighting::Uniform;
-        let zeros = |n: usize| vec![0.0; n];
         let mut out = Rows {
             feature_set: set,
-            features: zeros(pairs * set.width()),
-            targets: zeros(pairs),
-            weights: if weighted { zeros(pairs) } else { Vec::new() },
+            features: vec![0.0; pairs * set.width()],
+            targets: vec![0.0; pairs],
+            weights: Vec::new(),
             pixels: vec![0; pairs],
         };
         let (first, mut rows) = (self.next, 0);
@@ -223,12 +208,6 @@ impl RowStream {
             self.extractor
                 .sample(pixel, most, &mut stream(self.seed, CHOICE_PURPOSE, index), &mut rows);
             part.counts.push(rows.of_pixel as u32);
-            if self.config.weights == Weighting::Image {
-                // The rows stand for all fragments of the pixel.
-                let stands_for = pixel.len() as f32 / rows.of_pixel as f32;
-                part.weights
-                    .extend(rows.alpha[part.weights.len()..].iter().map(|a| a * a * stands_for));
-            }
         }
         Part {
             features: rows.features,
@@ -249,7 +228,6 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
     let width = out.feature_set.width();
     let mut features = &mut out.features[at * width..];
     let (mut targets, mut pixels) = (&mut out.targets[at..], &mut out.pixels[at..]);
-    let mut weights = out.weights.get_mut(at..).unwrap_or_default();
     let mut next = first;
     let mut places = Vec::with_capacity(parts.len());
     for part in parts {
@@ -259,7 +237,6 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
             next,
             split(&mut features, n * width),
             split(&mut targets, n),
-            split(&mut weights, n),
             split(&mut pixels, n),
         ));
         next += part.counts.len() as u32;
@@ -269,10 +246,9 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
         .map(|(part, first, _, targets, ..)| (*part, *first, targets.len()));
     places
         .into_par_iter()
-        .for_each(|(part, first, features, targets, weights, pixels)| {
+        .for_each(|(part, first, features, targets, pixels)| {
             features.copy_from_slice(&part.features[..features.len()]);
             targets.copy_from_slice(&part.targets[..targets.len()]);
-            weights.copy_from_slice(&part.weights[..weights.len()]);
             pixels
                 .iter_mut()
                 .zip(part.pixels(first))
@@ -281,7 +257,6 @@ fn place(out: &mut Rows, at: usize, parts: &[Part], first: u32) {
     if let Some((part, first, n)) = beyond {
         out.features.extend_from_slice(&part.features[n * width..]);
         out.targets.extend_from_slice(&part.targets[n..]);
-        out.weights.extend_from_slice(part.weights.get(n..).unwrap_or_default());
         out.pixels.extend(part.pixels(first).skip(n));
     }
 }
@@ -377,7 +352,6 @@ fn count(parts: &[Part]) -> (usize, u64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dataset::build;
     use crate::dataset::build::tests::sizes;
     use crate::features::{FeatureSet, SumPrecision};
 
@@ -485,30 +459,6 @@ mod tests {
         assert!(same.iter().filter(|(f, _, half)| *f != half.0).count() > same.len() / 2);
     }
 
-    /// Rows that serve the image weigh alpha² times the fragments that they stand for; in a dataset the weights' mean
-    /// is 1, and they survive its files.
-    #[test]
-    fn weights_serve_the_image() {
-        let rows = streamed(|c| c.weights = Weighting::Image);
-        assert_eq!(rows.weights.len(), rows.len());
-        assert!(rows.weights.iter().all(|w| w.is_finite() && *w >= 0.0));
-        assert!(streamed(|_| {}).weights.is_empty());
-        let config = DatasetConfig {
-            features: FeatureSet::Recentred,
-            training_pairs: 500,
-            validation_pairs: 100,
-            weights: Weighting::Image,
-            rows_per_pixel: 4,
-            ..sizes()
-        };
-        let dataset = build("w", 3, &SynthConfig::wide(), &config, &|_| {}).unwrap();
-        let mean = dataset.training.weights.iter().sum::<f32>() / dataset.training.len() as f32;
-        assert!((mean - 1.0).abs() < 1e-4 && dataset.validation.weights.is_empty());
-        let folder = tempfile::tempdir().unwrap();
-        crate::dataset::file::write(folder.path(), crate::numeric::file::Replace::No, &dataset).unwrap();
-        assert_eq!(crate::dataset::file::read_from(folder.path()).unwrap(), dataset);
-    }
-
     #[test]
     fn what_cannot_be_streamed_is_named() {
         let error =
@@ -548,7 +498,6 @@ mod tests {
         let config = DatasetConfig {
             features: FeatureSet::Recentred,
             rows_per_pixel: 4,
-            weights: Weighting::Image,
             ..sizes()
         };
         let fresh = || RowStream::new(7, &SynthConfig::wide(), &config, Purpose::Training).unwrap();
@@ -579,10 +528,7 @@ mod tests {
         let first = stream.take(1234, &|n| assert!(n >= 1234)).unwrap();
         let second = stream.take(rows - first.len(), &|_| {}).unwrap();
         assert_eq!(stream.position(), pixels);
-        assert!(
-            [first.targets, second.targets].concat() == whole.targets
-                && [first.weights, second.weights].concat() == whole.weights
-        );
+        assert!([first.targets, second.targets].concat() == whole.targets);
         assert!([first.features, second.features].concat() == whole.features);
         // Control: other pixels have other rows. None is asked for, none is made.
         stream.skip_to(1);

@@ -231,72 +231,98 @@ pub fn answer_tensors(width: usize, column: usize, offset: f32) -> [(&'static st
     ]
 }
 
+fn node(op: &str, name: String, input: Vec<String>, output: &str) -> NodeProto {
+    NodeProto {
+        input,
+        output: vec![output.to_owned()],
+        name,
+        op_type: op.to_owned(),
+    }
+}
+
 /// The graph of a network.
 pub fn model(mlp: &Mlp) -> ModelProto {
-    let mut node = Vec::new();
-    let mut initializer = Vec::new();
+    let set = mlp.feature_set();
+    let (mut nodes, mut initializer) = layers(mlp);
+    if let Answer::AbsorbanceShare { column, offset } = set.answer() {
+        let (more, tensors) = answer_of_a_share(set.width(), column, offset);
+        nodes.extend(more);
+        initializer.extend(tensors);
+    }
+    ModelProto {
+        ir_version: IR_VERSION,
+        producer_name: "nmt".to_owned(),
+        producer_version: env!("CARGO_PKG_VERSION").to_owned(),
+        doc_string: format!("Neural moment transparency: network '{}', {}", mlp.name(), mlp.shape()),
+        graph: Some(GraphProto {
+            node: nodes,
+            name: mlp.name().to_owned(),
+            initializer,
+            input: vec![matrix(INPUT, set.width() as i64)],
+            output: vec![matrix(OUTPUT, 1)],
+        }),
+        opset_import: vec![OperatorSetIdProto {
+            domain: String::new(),
+            version: OPSET,
+        }],
+        metadata_props: metadata(mlp),
+    }
+}
+
+/// Nodes and tensors of the layers, up to the sigmoid or the logit's negative.
+fn layers(mlp: &Mlp) -> (Vec<NodeProto>, Vec<TensorProto>) {
+    let (mut nodes, mut tensors) = (Vec::new(), Vec::new());
     let mut from = INPUT.to_owned();
     let last = mlp.layers().len() - 1;
     for (index, dense) in mlp.layers().iter().enumerate() {
         let (weights, biases) = (weights_name(index), biases_name(index));
-        initializer.push(tensor(
-            weights.clone(),
-            vec![dense.inputs() as i64, dense.outputs() as i64],
-            &dense.weights,
-        ));
-        initializer.push(tensor(biases.clone(), vec![dense.outputs() as i64], &dense.biases));
-        let sum = format!("sum{}", index + 1);
-        node.push(NodeProto {
-            input: vec![from, weights, biases],
-            output: vec![sum.clone()],
-            name: format!("gemm{}", index + 1),
-            op_type: "Gemm".to_owned(),
-        });
+        let shape = vec![dense.inputs() as i64, dense.outputs() as i64];
+        tensors.push(tensor(weights.clone(), shape, &dense.weights));
+        tensors.push(tensor(biases.clone(), vec![dense.outputs() as i64], &dense.biases));
+        let (number, sum) = (index + 1, format!("sum{}", index + 1));
+        nodes.push(node("Gemm", format!("gemm{number}"), vec![from, weights, biases], &sum));
         let (op, to) = match (index == last, mlp.feature_set().answer()) {
-            (false, _) => ("Relu", format!("h{}", index + 1)),
+            (false, _) => ("Relu", format!("h{number}")),
             (true, Answer::Sigmoid) => ("Sigmoid", OUTPUT.to_owned()),
             (true, Answer::AbsorbanceShare { .. }) => ("Neg", "minus_logit".to_owned()),
         };
-        node.push(NodeProto {
-            input: vec![sum],
-            output: vec![to.clone()],
-            name: format!("{}{}", op.to_lowercase(), index + 1),
-            op_type: op.to_owned(),
-        });
+        nodes.push(node(op, format!("{}{number}", op.to_lowercase()), vec![sum], &to));
         from = to;
     }
-    let set = mlp.feature_set();
-    if let Answer::AbsorbanceShare { column, offset } = set.answer() {
-        // The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too
-        // large beside a great absorbance. exp(−relu(exp(min(features[:, column], most)) − offset) · share); the column
-        // is picked by a product with a column of the unit matrix.
-        for (name, dims, values) in answer_tensors(set.width(), column, offset) {
-            initializer.push(tensor(name.to_owned(), dims, &values));
-        }
-        for (op, input, output) in [
-            ("Min", vec!["minus_logit", "greatest"], "bounded_logit"),
-            ("Exp", vec!["bounded_logit"], "odds"),
-            ("Add", vec!["odds", "one"], "inverse_share"),
-            ("Reciprocal", vec!["inverse_share"], "share"),
-            ("MatMul", vec![INPUT, "column"], "log_absorbance"),
-            ("Min", vec!["log_absorbance", "most"], "bounded_absorbance"),
-            ("Exp", vec!["bounded_absorbance"], "shifted_absorbance"),
-            ("Sub", vec!["shifted_absorbance", "offset"], "signed_absorbance"),
-            ("Relu", vec!["signed_absorbance"], "absorbance"),
-            ("Mul", vec!["absorbance", "share"], "in_front"),
-            ("Neg", vec!["in_front"], "exponent"),
-            ("Exp", vec!["exponent"], OUTPUT),
-        ] {
-            node.push(NodeProto {
-                input: input.into_iter().map(str::to_owned).collect(),
-                output: vec![output.to_owned()],
-                name: output.to_owned(),
-                op_type: op.to_owned(),
-            });
-        }
-    }
-    let p = &mlp.provenance;
-    let metadata = [
+    (nodes, tensors)
+}
+
+/// Nodes and tensors that make a transmittance of a share's logit:
+/// exp(−relu(exp(min(features\[:, column\], most)) − offset) · share).
+///
+/// The sigmoid is written out: runtimes approximate theirs by a clamped fraction, whose smallest value is too large
+/// beside a great absorbance. The column is picked by a product with a column of the unit matrix.
+fn answer_of_a_share(width: usize, column: usize, offset: f32) -> (Vec<NodeProto>, Vec<TensorProto>) {
+    let steps = [
+        ("Min", vec!["minus_logit", "greatest"], "bounded_logit"),
+        ("Exp", vec!["bounded_logit"], "odds"),
+        ("Add", vec!["odds", "one"], "inverse_share"),
+        ("Reciprocal", vec!["inverse_share"], "share"),
+        ("MatMul", vec![INPUT, "column"], "log_absorbance"),
+        ("Min", vec!["log_absorbance", "most"], "bounded_absorbance"),
+        ("Exp", vec!["bounded_absorbance"], "shifted_absorbance"),
+        ("Sub", vec!["shifted_absorbance", "offset"], "signed_absorbance"),
+        ("Relu", vec!["signed_absorbance"], "absorbance"),
+        ("Mul", vec!["absorbance", "share"], "in_front"),
+        ("Neg", vec!["in_front"], "exponent"),
+        ("Exp", vec!["exponent"], OUTPUT),
+    ];
+    let owned = |inputs: Vec<&str>| inputs.into_iter().map(str::to_owned).collect();
+    let nodes = steps.map(|(op, input, output)| node(op, output.to_owned(), owned(input), output));
+    let tensors = answer_tensors(width, column, offset);
+    let tensors = tensors.map(|(name, dims, values)| tensor(name.to_owned(), dims, &values));
+    (nodes.into(), tensors.into())
+}
+
+/// What the file says of the network besides its graph.
+fn metadata(mlp: &Mlp) -> Vec<StringStringEntryProto> {
+    let (p, set) = (&mlp.provenance, mlp.feature_set());
+    let entries = [
         ("nmt.name", Some(mlp.name().to_owned())),
         ("nmt.feature_set", Some(set.name().to_owned())),
         ("nmt.features", Some(set.columns().join(","))),
@@ -307,32 +333,12 @@ pub fn model(mlp: &Mlp) -> ModelProto {
         ("nmt.transmittance_mse", p.transmittance_mse.map(|e| e.to_string())),
         (PRUNED, p.pruned.as_ref().map(|pruned| pruned.to_text())),
     ];
-    ModelProto {
-        ir_version: IR_VERSION,
-        producer_name: "nmt".to_owned(),
-        producer_version: env!("CARGO_PKG_VERSION").to_owned(),
-        doc_string: format!("Neural moment transparency: network '{}', {}", mlp.name(), mlp.shape()),
-        graph: Some(GraphProto {
-            node,
-            name: mlp.name().to_owned(),
-            initializer,
-            input: vec![matrix(INPUT, set.width() as i64)],
-            output: vec![matrix(OUTPUT, 1)],
-        }),
-        opset_import: vec![OperatorSetIdProto {
-            domain: String::new(),
-            version: OPSET,
-        }],
-        metadata_props: metadata
-            .into_iter()
-            .filter_map(|(key, value)| {
-                value.map(|value| StringStringEntryProto {
-                    key: key.to_owned(),
-                    value,
-                })
-            })
-            .collect(),
-    }
+    let known = entries
+        .into_iter()
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+    known
+        .map(|(key, value)| StringStringEntryProto { key, value })
+        .collect()
 }
 
 /// The bytes of the `.onnx` file of a network.

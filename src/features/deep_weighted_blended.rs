@@ -1,6 +1,5 @@
 //! DWB22's features: `[depth, alpha_sum, n]`.
 
-use super::extract::unknown;
 use super::spec::{ExactRules, FeatureSpec, ShaderCalls, Sums, Tolerances};
 use super::{Answer, MomentDepthKind, OutputMeaning, Target};
 use crate::numeric::real::{Real, c};
@@ -20,10 +19,6 @@ pub const DESCRIPTION: [&str; 4] = [
         blended transparency.",
 ];
 
-/// Bits of a pixel through both passes: sum of alpha and number of fragments in RG16F; Σ w a C and Σ w a in RGBA16F and
-/// what is left of the background in R16F.
-pub const BITS_PER_PIXEL: u32 = 112;
-
 /// DWB22's feature set.
 pub const SPEC: FeatureSpec = FeatureSpec {
     name: "deep-weighted-blended",
@@ -31,7 +26,6 @@ pub const SPEC: FeatureSpec = FeatureSpec {
     description: &DESCRIPTION,
     sums: Sums {
         moments: 0,
-        bits_per_pixel: BITS_PER_PIXEL,
         has_precisions: false,
     },
     core: None,
@@ -48,11 +42,9 @@ pub const SPEC: FeatureSpec = FeatureSpec {
         usual_feature_log2: 6,
     },
     default_pixels: SynthConfig::paper,
-    pixel: |e, pixel, out| {
-        unknown(COLUMNS.len(), out, |rows| {
-            extract(pixel, e.scale.linear_range(), rows);
-            Ok(())
-        })
+    pixel: |e, pixel, features, _| {
+        extract(pixel, e.scale.linear_range(), features);
+        Ok(())
     },
     sample: None,
     is_sampled: false,

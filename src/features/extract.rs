@@ -12,6 +12,7 @@ use crate::pixel::{CameraPlanes, DepthError, FragmentList, LogWarp, Pixel, ViewZ
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A feature set together with what it must know of the camera and the scene: turns pixels into rows of features.
@@ -115,8 +116,6 @@ pub struct Sampled {
     pub features: Vec<f32>,
     /// Exact transmittances, `[N]`.
     pub targets: Vec<f32>,
-    /// Opacities of the fragments, `[N]`.
-    pub alpha: Vec<f32>,
     /// Rows of the last pixel.
     pub of_pixel: usize,
     /// Their view depths.
@@ -136,7 +135,6 @@ impl Sampled {
     pub fn reserve(&mut self, rows: usize, width: usize) {
         self.features.reserve(rows * width);
         self.targets.reserve(rows);
-        self.alpha.reserve(rows);
     }
 
     /// Fills the lanes with a pixel: `to_depth` takes view depths to those that the feature set measures.
@@ -194,7 +192,6 @@ impl Sampled {
             let chosen = self.order[i] as usize;
             if row(chosen, self) {
                 self.before.push(at(&self.view_z, chosen));
-                self.alpha.push(at(&self.alpha_lanes, chosen));
             }
         }
         self.of_pixel = self.before.len();
@@ -278,11 +275,28 @@ fn transmittances<S: Simd>(simd: S, view_z: &[Lanes], absorbance: &[Lanes], befo
     }
 }
 
+/// What a feature set knows of a fragment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Known {
+    /// Its transmittance: no network is needed.
+    Transmittance(f32),
+    /// What a network's answer is multiplied by: the transmittance of the core in front, 1 where there is no core.
+    Front(f32),
+}
+
+impl Known {
+    /// What it says of T: all of it, or a factor.
+    pub fn factor(&self) -> f32 {
+        let (Self::Transmittance(t) | Self::Front(t)) = self;
+        *t
+    }
+}
+
 /// What a feature set says of some fragments.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extracted {
-    /// Transmittance of every fragment that needs no network; `[F']`.
-    pub known: Vec<Option<f32>>,
+    /// What is known of every fragment; `[F']`.
+    pub known: Vec<Known>,
     /// Features of the fragments that the network is evaluated for, in the order of the fragments; `[Q, W]`, row by
     /// row.
     pub features: Vec<f32>,
@@ -379,20 +393,21 @@ impl Extractor {
         self.set
     }
 
-    /// Features of every fragment of a pixel, in the order of its fragments, and the transmittance where the set knows
-    /// it.
+    /// Features of every fragment of a pixel, in the order of its fragments, and what is known of it.
     ///
     /// # Shapes
-    /// `out: [n, W + 1]`, row by row: the features, then the known transmittance or NaN; features beside a known
-    /// transmittance are 0.
+    /// `features: [n, W]`, row by row, 0 beside a known transmittance; `known: [n]`.
     ///
     /// # Errors
     /// [`DepthError::OutsidePlanes`] where a fragment lies outside the camera's planes.
     ///
     /// # Panics
-    /// If `out` has another length.
-    pub fn pixel(&self, pixel: Pixel<'_>, out: &mut [f32]) -> Result<(), DepthError> {
-        (self.set.spec().pixel)(self, pixel, out)
+    /// If a slice has another length.
+    pub fn pixel(&self, pixel: Pixel<'_>, features: &mut [f32], known: &mut [Known]) -> Result<(), DepthError> {
+        assert_eq!(features.len(), pixel.len() * self.set.width(), "W features a fragment");
+        assert_eq!(known.len(), pixel.len(), "one entry a fragment");
+        known.fill(Known::Front(1.0));
+        (self.set.spec().pixel)(self, pixel, features, known)
     }
 
     /// Appends rows of at most `most` fragments of a pixel that the network is evaluated for, chosen at random:
@@ -415,34 +430,30 @@ impl Extractor {
     pub fn list(&self, list: &FragmentList, range: std::ops::Range<usize>) -> Result<Extracted, DepthError> {
         let width = self.set().width();
         let fragments = (list.offsets()[range.end] - list.offsets()[range.start]) as usize;
-        let mut rows = vec![0.0; fragments * (width + 1)];
-        list.par_pixels(range, &mut rows, width + 1, |_, pixel, out| self.pixel(pixel, out))?;
-        let of_row = |row: &[f32]| Some(row[width]).filter(|t| !t.is_nan());
-        let known: Vec<Option<f32>> = rows.chunks_exact(width + 1).map(of_row).collect();
+        let (mut features, mut known) = (vec![0.0; fragments * width], vec![Known::Front(1.0); fragments]);
+        let (mut features_left, mut known_left) = (&mut features[..], &mut known[..]);
+        let mut own = |p: usize| {
+            let n = list.pixel(p).len();
+            (
+                p,
+                features_left.split_off_mut(..n * width).expect("W numbers a fragment"),
+                known_left.split_off_mut(..n).expect("one entry a fragment"),
+            )
+        };
+        let pixels: Vec<_> = range.map(&mut own).collect();
+        pixels
+            .into_par_iter()
+            .with_min_len(64)
+            .try_for_each(|(p, features, known)| self.pixel(list.pixel(p), features, known))?;
         // Rows that the network answers close ranks in place.
         let mut kept = 0;
         for (i, known) in known.iter().enumerate() {
-            if known.is_none() {
-                rows.copy_within(i * (width + 1)..i * (width + 1) + width, kept);
+            if matches!(known, Known::Front(_)) {
+                features.copy_within(i * width..(i + 1) * width, kept);
                 kept += width;
             }
         }
-        rows.truncate(kept);
-        Ok(Extracted { known, features: rows })
+        features.truncate(kept);
+        Ok(Extracted { known, features })
     }
-}
-
-/// Rows of a set that knows nothing without a network, spread out to make room for the column that says so.
-pub(super) fn unknown(
-    width: usize,
-    out: &mut [f32],
-    extract: impl FnOnce(&mut [f32]) -> Result<(), DepthError>,
-) -> Result<(), DepthError> {
-    let rows = out.len() / (width + 1);
-    extract(&mut out[..rows * width])?;
-    for i in (0..rows).rev() {
-        out.copy_within(i * width..(i + 1) * width, i * (width + 1));
-        out[i * (width + 1) + width] = f32::NAN;
-    }
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! NMT24's features: `[d, n, b0, b1, b2, b3, b4]` on window depth.
 
-use super::extract::{Extractor, Sampled, at, unknown};
+use super::extract::{Extractor, Sampled, at};
 use super::recentred::formulas::absorbance as absorbance_of;
 use super::spec::{ExactRules, FeatureSpec, ShaderCalls, Sums, Tolerances};
 use super::{Answer, MomentDepthKind, OutputMeaning, Target};
@@ -34,7 +34,6 @@ pub const SPEC: FeatureSpec = FeatureSpec {
     sums: Sums {
         moments: 4,
         // NMT24 Sec. 4: RGBA32F colour and normalisation, RGBA32F moments, RG32F b0 and weight sum, RG16F depth range.
-        bits_per_pixel: 352,
         has_precisions: false,
     },
     core: None,
@@ -52,7 +51,7 @@ pub const SPEC: FeatureSpec = FeatureSpec {
         usual_feature_log2: 6,
     },
     default_pixels: SynthConfig::paper,
-    pixel: |e, pixel, out| unknown(COLUMNS.len(), out, |rows| extract(pixel, e.scale.planes(), rows)),
+    pixel: |e, pixel, features, _| extract(pixel, e.scale.planes(), features),
     sample: Some(sample),
     is_sampled: false,
     shader: ShaderCalls {

@@ -18,7 +18,7 @@
 //! parameters of the basis.
 
 use super::core::CoreSet;
-use super::{Answer, Extractor, MomentDepthKind, OutputMeaning, Sampled, Target};
+use super::{Answer, Extractor, Known, MomentDepthKind, OutputMeaning, Sampled, Target};
 use crate::numeric::rng::Stream;
 use crate::numeric::source::Source;
 use crate::pixel::{DepthError, Pixel};
@@ -53,7 +53,7 @@ pub struct FeatureSpec {
     /// Pixels that a network is checked on where its file does not tell what it was trained on.
     pub default_pixels: fn() -> SynthConfig,
     /// Features of every fragment of a pixel; see [`Extractor::pixel`].
-    pub pixel: fn(&Extractor, Pixel<'_>, &mut [f32]) -> Result<(), DepthError>,
+    pub pixel: PixelRows,
     /// Rows of some fragments of a pixel, for sets that are trained on transmittances; see [`Extractor::sample`].
     pub sample: Option<Sampler>,
     /// Whether a dataset holds such rows, drawn pixel by pixel, and not every fragment of its pixels.
@@ -70,6 +70,9 @@ impl FeatureSpec {
     }
 }
 
+/// What fills in the features of a pixel's fragments and what is known of them; see [`Extractor::pixel`].
+pub type PixelRows = fn(&Extractor, Pixel<'_>, &mut [f32], &mut [Known]) -> Result<(), DepthError>;
+
 /// What draws rows of some fragments of a pixel: at most so many of them, by random numbers of the pixel's own.
 pub type Sampler = fn(&Extractor, Pixel<'_>, usize, &mut Stream, &mut Sampled);
 
@@ -78,8 +81,6 @@ pub type Sampler = fn(&Extractor, Pixel<'_>, usize, &mut Stream, &mut Sampled);
 pub struct Sums {
     /// Moments that it adds up besides b_0.
     pub moments: usize,
-    /// Bits of a pixel through both passes, colour and weights included.
-    pub bits_per_pixel: u32,
     /// Whether precision and frame of the moments may be chosen; see [`SumPrecision`](super::SumPrecision) and
     /// [`MomentFrame`](super::MomentFrame).
     pub has_precisions: bool,

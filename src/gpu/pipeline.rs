@@ -75,8 +75,8 @@ struct Layouts {
     weighted: wgpu::BindGroupLayout,
     /// What pass 1 left.
     state: wgpu::BindGroupLayout,
-    /// Cores, written in pass 1 and read in pass 2; empty where the method keeps none.
-    cores: [wgpu::BindGroupLayout; 2],
+    /// Cores, written in pass 1 and read in pass 2, where the method keeps them.
+    cores: Option<[wgpu::BindGroupLayout; 2]>,
 }
 
 impl Layouts {
@@ -115,14 +115,10 @@ impl Layouts {
                 has_dynamic_offset: false,
                 min_binding_size: None,
             };
-            layout(
-                "cores",
-                wgpu::ShaderStages::FRAGMENT,
-                &[buffer][..usize::from(has_core)],
-            )
+            layout("cores", wgpu::ShaderStages::FRAGMENT, &[buffer])
         };
         Self {
-            cores: [false, true].map(core),
+            cores: has_core.then(|| [false, true].map(core)),
             frame: layout("frame", wgpu::ShaderStages::VERTEX_FRAGMENT, &[uniform]),
             fragments: fragments_layout(gpu),
             weighted: layout("weighted colour", wgpu::ShaderStages::FRAGMENT, &[texture(false)]),
@@ -157,6 +153,158 @@ fn scale_below_1(v: f32) -> f32 {
     // v lies in [2^e, 2^(e + 1)).
     let e = (v.to_bits() >> 23) as i32 - 127;
     f32::from_bits(((127 - (e + 1)).clamp(1, 253) as u32) << 23)
+}
+
+/// Refuses what the device cannot draw.
+fn refuse(gpu: &Gpu, list: &DeviceList, method: &MethodShader, precision: TargetPrecision) -> Result<(), GpuError> {
+    let lacks = |feature| GpuError::Lacks {
+        adapter: gpu.name(),
+        feature,
+    };
+    if precision.blends_f32() && !gpu.blends_f32() {
+        return Err(lacks(BLENDING));
+    }
+    if precision == TargetPrecision::Half && list.greatest >= MAX_SCALED {
+        return Err(GpuError::NoImage(format!(
+            "view_z {:e} is too far away for a depth buffer, take a smaller unit",
+            list.greatest
+        )));
+    }
+    if method.core.is_some() && !gpu.has_fragment_atomics() {
+        return Err(lacks(ATOMICS));
+    }
+    if method.core.is_some() && precision == TargetPrecision::Half {
+        return Err(GpuError::Source {
+            label: method.name.clone(),
+            reason: "a core is taken out of its pixel's sums again, which f16 is too coarse for".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    (width, height): (u32, u32),
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
+        view_formats: &[],
+    })
+}
+
+/// Resources at the bindings from 0 on.
+fn group(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: Vec<wgpu::BindingResource<'_>>,
+) -> wgpu::BindGroup {
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<_> = (0..).zip(resources).map(entry).collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
+}
+
+/// What pass 2 writes: weighted colours and their weights, added up.
+fn weighted_target(precision: TargetPrecision) -> Target {
+    let full = precision == TargetPrecision::Full;
+    Target {
+        channels: 4,
+        channel: if full { Channel::F32 } else { Channel::F16 },
+        holds: Holds::Added { first: 0, count: 4 },
+    }
+}
+
+/// The passes of a method, compiled.
+struct Pipelines {
+    /// Draws of pass 1, and the targets that each writes.
+    pass1: Vec<(wgpu::RenderPipeline, Vec<usize>)>,
+    pass2: wgpu::RenderPipeline,
+    resolve: wgpu::RenderPipeline,
+}
+
+impl Pipelines {
+    fn new(gpu: &Gpu, shaders: &Shaders, layouts: &Layouts, precision: TargetPrecision) -> Self {
+        let targets = &shaders.targets;
+        let state = |format, blend| {
+            Some(wgpu::ColorTargetState {
+                format,
+                blend,
+                write_mask: wgpu::ColorWrites::ALL,
+            })
+        };
+        let blended = |target: Target| state(format_of(target), Some(blend_of(target)));
+        let points = wgpu::PrimitiveTopology::PointList;
+        let (frame, fragments) = (Some(&layouts.frame), Some(&layouts.fragments));
+        let pass1 = shaders.pass1.iter().map(|(source, draw)| {
+            let colors = draw.iter().map(|&i| targets[i]).filter(|target| !target.is_depth());
+            let depth = match targets[draw[0]].holds {
+                Holds::Nearest => Some(wgpu::CompareFunction::Less),
+                Holds::Farthest => Some(wgpu::CompareFunction::Greater),
+                _ => None,
+            };
+            // The first draw alone keeps the core.
+            let core = layouts.cores.as_ref().filter(|_| draw[0] == 0);
+            let layout = [frame, fragments, None, core.map(|[written, _]| written)];
+            let bound = if core.is_some() { 4 } else { 2 };
+            let written: Vec<_> = colors.map(blended).collect();
+            let entries = ["oit_point", "oit_pass1"];
+            let pipeline = render_pipeline(
+                gpu,
+                "pass 1",
+                source,
+                entries,
+                &layout[..bound],
+                points,
+                depth,
+                &written,
+            );
+            (pipeline, draw.clone())
+        });
+        let core = layouts.cores.as_ref().map(|[_, read]| read);
+        let all = [frame, fragments, Some(&layouts.state), core];
+        let all = &all[..if core.is_some() { 4 } else { 3 }];
+        let last = [frame, Some(&layouts.weighted), Some(&layouts.state)];
+        Self {
+            pass1: pass1.collect(),
+            pass2: render_pipeline(
+                gpu,
+                "pass 2",
+                &shaders.pass2,
+                ["oit_point", "oit_pass2"],
+                all,
+                points,
+                None,
+                &[blended(weighted_target(precision))],
+            ),
+            resolve: render_pipeline(
+                gpu,
+                "resolve",
+                &shaders.resolve,
+                ["oit_everywhere", "oit_resolve"],
+                &last,
+                wgpu::PrimitiveTopology::TriangleList,
+                None,
+                &[state(Rgba32Float, None)],
+            ),
+        }
+    }
 }
 
 /// A method made ready to draw a list: shaders, render targets, background.
@@ -239,207 +387,48 @@ impl Pipeline {
         precision: TargetPrecision,
         limits: Limits,
     ) -> Result<Self, GpuError> {
-        if precision.blends_f32() && !gpu.blends_f32() {
-            return Err(GpuError::Lacks {
-                adapter: gpu.name(),
-                feature: BLENDING,
-            });
-        }
-        if precision == TargetPrecision::Half && list.greatest >= MAX_SCALED {
-            return Err(GpuError::NoImage(format!(
-                "view_z {:e} is too far away for a depth buffer, take a smaller unit",
-                list.greatest
-            )));
-        }
-        if method.core.is_some() && !gpu.has_fragment_atomics() {
-            return Err(GpuError::Lacks {
-                adapter: gpu.name(),
-                feature: ATOMICS,
-            });
-        }
-        if method.core.is_some() && precision == TargetPrecision::Half {
-            return Err(GpuError::Source {
-                label: method.name.clone(),
-                reason: "a core is taken out of its pixel's sums again, which f16 is too coarse for".to_owned(),
-            });
-        }
+        refuse(gpu, list, method, precision)?;
         let (width, height) = list.image_size()?;
-        let cores = upload::core(gpu, method, list.pixels)?;
-        let Shaders {
-            targets,
-            pass1,
-            pass2,
-            resolve,
-        } = Shaders::new(method, precision, limits);
+        let core = upload::core(gpu, method, list.pixels)?;
+        let shaders = Shaders::new(method, precision, limits);
         gpu.checked(&method.name, || {
-            let device = &gpu.device;
-            let layouts = Layouts::new(gpu, &targets, method.core.is_some());
-            let size = wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            };
-            let texture = |label, format, usage| {
-                device.create_texture(&wgpu::TextureDescriptor {
-                    label: Some(label),
-                    size,
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension: wgpu::TextureDimension::D2,
-                    format,
-                    usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                    view_formats: &[],
-                })
-            };
+            let layouts = Layouts::new(gpu, &shaders.targets, method.core.is_some());
             let read = wgpu::TextureUsages::TEXTURE_BINDING;
-            let format = if precision == TargetPrecision::Full {
-                Rgba32Float
-            } else {
-                Rgba16Float
-            };
-            let views: Vec<_> = targets
-                .iter()
-                .map(|t| texture("pass 1", format_of(*t), read).create_view(&Default::default()))
-                .collect();
-            let weighted = texture("pass 2", format, read).create_view(&Default::default());
-            let image = texture("image", Rgba32Float, wgpu::TextureUsages::COPY_SRC);
+            let texture = |label, format, usage| texture(gpu, label, (width, height), format, usage);
+            let view = |label, format| texture(label, format, read).create_view(&Default::default());
+            let view_of = |target: &Target| view("pass 1", format_of(*target));
+            let views: Vec<_> = shaders.targets.iter().map(view_of).collect();
+            let weighted = view("pass 2", format_of(weighted_target(precision)));
 
-            let group = |label, layout, resources: Vec<wgpu::BindingResource<'_>>| {
-                let entries: Vec<_> = (0..)
-                    .zip(resources)
-                    .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-                    .collect();
-                device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some(label),
-                    layout,
-                    entries: &entries,
-                })
-            };
             let chunk = |chunk: &Chunk| {
                 let buffers = [&chunk.pixel_of, &chunk.view_z, &chunk.alpha, &chunk.color];
                 let resources = buffers.map(wgpu::Buffer::as_entire_binding).to_vec();
-                (chunk.fragments, group("fragments", &layouts.fragments, resources))
+                (chunk.fragments, group(gpu, "fragments", &layouts.fragments, resources))
             };
-            let frame = frame(
-                gpu,
-                method,
-                range,
-                (width, height),
-                background,
-                scale_below_1(list.greatest),
-            );
-
-            let added = Target {
-                channels: 4,
-                channel: if format == Rgba32Float {
-                    Channel::F32
-                } else {
-                    Channel::F16
-                },
-                holds: Holds::Added { first: 0, count: 4 },
-            };
-            let blended = |t: Target| {
-                Some(wgpu::ColorTargetState {
-                    format: format_of(t),
-                    blend: Some(blend_of(t)),
-                    write_mask: wgpu::ColorWrites::ALL,
-                })
-            };
-            let points = wgpu::PrimitiveTopology::PointList;
-            let pass1 = pass1.into_iter().map(|(source, draw)| {
-                let written: Vec<_> = draw
-                    .iter()
-                    .filter(|&&i| !targets[i].is_depth())
-                    .map(|&i| blended(targets[i]))
-                    .collect();
-                let depth = match targets[draw[0]].holds {
-                    Holds::Nearest => Some(wgpu::CompareFunction::Less),
-                    Holds::Farthest => Some(wgpu::CompareFunction::Greater),
-                    _ => None,
-                };
-                let layout = [
-                    Some(&layouts.frame),
-                    Some(&layouts.fragments),
-                    None,
-                    Some(&layouts.cores[0]),
-                ];
-                let layout = if cores.is_some() && draw[0] == 0 {
-                    &layout[..]
-                } else {
-                    &layout[..2]
-                };
-                (
-                    render_pipeline(
-                        gpu,
-                        "pass 1",
-                        &source,
-                        ["oit_point", "oit_pass1"],
-                        layout,
-                        points,
-                        depth,
-                        &written,
-                    ),
-                    draw,
-                )
-            });
-            let all = [
-                Some(&layouts.frame),
-                Some(&layouts.fragments),
-                Some(&layouts.state),
-                Some(&layouts.cores[1]),
-            ];
-            let all = if cores.is_some() { &all[..] } else { &all[..3] };
-            let last = [Some(&layouts.frame), Some(&layouts.weighted), Some(&layouts.state)];
-            let plain = [Some(wgpu::ColorTargetState {
-                format: Rgba32Float,
-                blend: None,
-                write_mask: wgpu::ColorWrites::ALL,
-            })];
+            let scale = scale_below_1(list.greatest);
+            let frame = frame(gpu, method, range, (width, height), background, scale);
+            let state = views.iter().map(wgpu::BindingResource::TextureView).collect();
+            let result = vec![wgpu::BindingResource::TextureView(&weighted)];
+            let Pipelines { pass1, pass2, resolve } = Pipelines::new(gpu, &shaders, &layouts, precision);
             Self {
                 name: method.name.clone(),
                 width,
                 height,
                 chunks: list.chunks.iter().filter(|c| c.fragments > 0).map(chunk).collect(),
-                pass1: pass1.collect(),
-                pass2: render_pipeline(
-                    gpu,
-                    "pass 2",
-                    &pass2,
-                    ["oit_point", "oit_pass2"],
-                    all,
-                    points,
-                    None,
-                    &[blended(added)],
-                ),
-                resolve: render_pipeline(
-                    gpu,
-                    "resolve",
-                    &resolve,
-                    ["oit_everywhere", "oit_resolve"],
-                    &last,
-                    wgpu::PrimitiveTopology::TriangleList,
-                    None,
-                    &plain,
-                ),
-                frame: group("frame", &layouts.frame, vec![frame.as_entire_binding()]),
-                state: group(
-                    "what pass 1 left",
-                    &layouts.state,
-                    views.iter().map(wgpu::BindingResource::TextureView).collect(),
-                ),
-                result: group(
-                    "weighted colour",
-                    &layouts.weighted,
-                    vec![wgpu::BindingResource::TextureView(&weighted)],
-                ),
-                core: cores.map(|buffer| {
-                    let bound = |layout| group("cores", layout, vec![buffer.as_entire_binding()]);
-                    let groups = [0, 1].map(|i| bound(&layouts.cores[i]));
+                pass1,
+                pass2,
+                resolve,
+                frame: group(gpu, "frame", &layouts.frame, vec![frame.as_entire_binding()]),
+                state: group(gpu, "what pass 1 left", &layouts.state, state),
+                result: group(gpu, "weighted colour", &layouts.weighted, result),
+                core: core.zip(layouts.cores.as_ref()).map(|(buffer, layouts)| {
+                    let bound = |layout| group(gpu, "cores", layout, vec![buffer.as_entire_binding()]);
+                    let groups = layouts.each_ref().map(bound);
                     (buffer, groups)
                 }),
-                targets: targets.into_iter().zip(views).collect(),
+                image: texture("image", Rgba32Float, wgpu::TextureUsages::COPY_SRC),
+                targets: shaders.targets.into_iter().zip(views).collect(),
                 weighted,
-                image,
             }
         })
     }

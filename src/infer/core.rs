@@ -2,8 +2,8 @@
 //! by the beta law.
 //!
 //! Steps, codes and what they stand for are made for a run of pixels in lanes; the chain of slots and the sums are
-//! taken fragment by fragment; pass 2 takes the fragments of a pixel sixteen at a time. Its arithmetic is
-//! [`Between::answer`]'s without branches, and a test holds the two together.
+//! taken fragment by fragment; pass 2 takes the fragments of a pixel sixteen at a time, by [`Between::answers`], which
+//! rows of training take one at a time.
 
 use super::classes::{Class, Switches, Tally};
 use super::passes::{Column, ROWS};

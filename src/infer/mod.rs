@@ -11,7 +11,7 @@ pub use classes::{Class, Skip, Switches, Tally};
 pub use passes::Passes;
 pub use tiled::Tiled;
 
-use crate::features::{Extracted, Extractor};
+use crate::features::{Extracted, Extractor, Known};
 use crate::model::Mlp;
 use crate::pixel::{DepthError, FragmentList, abuffer};
 use std::time::Instant;
@@ -115,15 +115,15 @@ fn pixel_by_pixel(
         };
         for i in own {
             (out[i], classes[i]) = match known[i] {
-                Some(t) => (t, Class::Known),
-                None if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
-                None => (f32::NAN, Class::Network),
+                Known::Transmittance(t) => (t, Class::Known),
+                Known::Front(_) if b0 <= MIN_OPACITY => (libm::exp(-0.5 * b0) as f32, Class::Faint),
+                Known::Front(front) => (front, Class::Network),
             };
         }
     }
     let (mut kept, mut row) = (0, 0);
     for (i, class) in classes.iter().enumerate() {
-        if known[i].is_none() {
+        if matches!(known[i], Known::Front(_)) {
             if *class == Class::Network {
                 features.copy_within(row * width..(row + 1) * width, kept * width);
                 kept += 1;
@@ -140,7 +140,7 @@ fn pixel_by_pixel(
     let mut answers = mlp.predict(&features).into_iter();
     for (out, &class) in out.iter_mut().zip(&*classes) {
         if class == Class::Network {
-            *out = answers.next().expect("one answer a question");
+            *out *= answers.next().expect("one answer a question");
         }
         tally.classes[class as usize] += 1;
     }

@@ -528,7 +528,7 @@ impl Passes {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::features::{FeatureSet, visible};
+    use crate::features::{FeatureSet, Known, visible};
     use crate::numeric::rng::{Stream, stream};
     use crate::pixel::{absorbance, abuffer};
     use rand::RngExt;
@@ -623,20 +623,20 @@ pub(crate) mod tests {
             assert_eq!(tally.fragments() as usize, list.len());
             let width = set.width();
             let (mut controls, mut compared) = (0, 0);
-            let mut known_before = f32::NAN;
+            let mut known_before = None;
             for p in 0..list.pixels() {
                 let range = list.range(p);
-                let mut whole = vec![0.0; range.len() * (width + 1)];
-                extractor.pixel(list.pixel(p), &mut whole).unwrap();
+                let (mut whole, mut known) = (vec![0.0; range.len() * width], vec![Known::Front(0.0); range.len()]);
+                extractor.pixel(list.pixel(p), &mut whole, &mut known).unwrap();
                 let (near, far) = list
                     .pixel(p)
                     .view_z
                     .iter()
                     .fold((f32::INFINITY, 0.0f32), |(a, b), &v| (a.min(v), b.max(v)));
                 let thin = far < 1.6 * near;
-                for (i, row) in range.clone().zip(whole.chunks_exact(width + 1)) {
-                    assert_eq!(row[width].is_nan(), class[i] == Class::Network);
-                    if class[i] != Class::Network {
+                for ((i, row), known) in range.clone().zip(whole.chunks_exact(width)).zip(known) {
+                    assert_eq!(known == Known::Front(1.0), class[i] == Class::Network);
+                    if let Known::Transmittance(known) = known {
                         // Moments of thin pixels are what rounding makes of them; in pixels of three only the mean
                         // counts.
                         let bar = match class[i] {
@@ -645,15 +645,9 @@ pub(crate) mod tests {
                             Class::Four => 1e-3,
                             _ => 1e-5,
                         };
-                        assert!(
-                            (out[i] - row[width]).abs() <= bar,
-                            "{:?}: {} for {}",
-                            class[i],
-                            out[i],
-                            row[width]
-                        );
-                        controls += usize::from((out[i] - known_before).abs() > 1e-5);
-                        known_before = row[width];
+                        assert!((out[i] - known).abs() <= bar, "{:?}: {} for {known}", class[i], out[i]);
+                        controls += usize::from(known_before.is_none_or(|before: f32| (out[i] - before).abs() > 1e-5));
+                        known_before = Some(known);
                     } else {
                         if thin {
                             continue;

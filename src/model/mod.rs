@@ -61,6 +61,16 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// Of what this program trains by a configuration; the training adds what it knows.
+    pub fn of_this_program(config: serde_json::Value) -> Self {
+        Self {
+            source: format!("nmt {}", env!("CARGO_PKG_VERSION")),
+            commit: option_env!("NMT_COMMIT").map(str::to_owned),
+            config: Some(config),
+            ..Self::default()
+        }
+    }
+
     /// Epochs as a person counts them: those of one training, or "3 x 600" where the best of several was kept.
     pub fn epochs_text(&self) -> Option<String> {
         let all = self.epochs?;

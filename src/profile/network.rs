@@ -1,7 +1,6 @@
 //! What a network does on a scene: which units fire, which features move, what it costs and how far it is off.
 
 use super::{ProfileError, Scene};
-use crate::dataset::{Rows, build::rows};
 use crate::features::{Extractor, FeatureSet, SumPrecision};
 use crate::model::Mlp;
 use crate::model::simplify::activity;
@@ -90,13 +89,13 @@ impl Networked {
     }
 }
 
-/// Rows of features that a network is evaluated for on a scene, with the exact answers.
+/// Rows of features that a network is evaluated for on a scene, `[Q, W]`.
 ///
 /// # Errors
 /// [`ProfileError::Depth`] where the features need planes or a range of depth that are not known.
-pub fn rows_of(scene: &Scene<'_>, set: FeatureSet) -> Result<Rows, ProfileError> {
+pub fn rows_of(scene: &Scene<'_>, set: FeatureSet) -> Result<Vec<f32>, ProfileError> {
     let extractor = Extractor::for_list(set, scene.list, scene.context.planes, scene.context.depth_range)?;
-    Ok(rows(scene.list, &extractor)?)
+    Ok(extractor.list(scene.list, 0..scene.list.pixels())?.features)
 }
 
 /// Looks into a network.
@@ -129,14 +128,14 @@ pub fn look_into(scene: &Scene<'_>, mlp: &Mlp) -> Result<Networked, ProfileError
     }
     let width = set.width();
     let columns = set.columns().iter().enumerate().map(|(c, name)| {
-        let of = rows.features.iter().skip(c).step_by(width);
+        let of = rows.iter().skip(c).step_by(width);
         let (min, max) = of.fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &x| {
             (lo.min(x), hi.max(x))
         });
         Feature { name, min, max }
     });
-    let fired = activity(mlp, &rows.features).fired;
-    let n = rows.len() as u64;
+    let fired = activity(mlp, &rows).fired;
+    let n = (rows.len() / width) as u64;
     let layers = fired.iter().map(|fired| Layer {
         units: fired.len() as u64,
         never: (0..fired.len()).filter(|&u| fired[u] == 0).collect(),

@@ -6,9 +6,8 @@
 //! for that scene and those like it.
 
 use super::{Errors, ProfileError, Scene};
-use crate::dataset::build::normalise;
 use crate::dataset::{Batch, Blocks, Rows};
-use crate::features::{Extractor, Target};
+use crate::features::{Extractor, Known, Target};
 use crate::model::simplify::walk;
 use crate::model::{Dense, Mlp};
 use crate::numeric::rng::stream;
@@ -25,6 +24,9 @@ const PURPOSE: u64 = 0x1008;
 
 /// Sides of the tiles that are held out together \[pixels\]: neighbours look alike.
 const TILE: usize = super::facts::TILE as usize;
+
+/// Transmittance of the core in front below which a fragment is not fitted to: the tail does not show.
+const MIN_FRONT: f32 = 1e-4;
 
 /// Fewest rows worth fitting to.
 pub const MIN_ROWS: usize = 1000;
@@ -123,7 +125,7 @@ pub struct Specialised {
 /// The scene as its network sees it.
 struct Task<'a> {
     scene: &'a Scene<'a>,
-    /// Answers that need no network, and room for the others.
+    /// Answers that need no network, and what the network's are multiplied by.
     base: Vec<f32>,
     /// Fragments that the network answers.
     evaluated: Vec<usize>,
@@ -137,7 +139,8 @@ impl<'a> Task<'a> {
         let list = scene.list;
         let extractor = Extractor::for_list(mlp.feature_set(), list, scene.context.planes, scene.context.depth_range)?;
         let extracted = extractor.list(list, 0..list.pixels())?;
-        let evaluated = (0..list.len()).filter(|&i| extracted.known[i].is_none()).collect();
+        let needs_network = |i: &usize| matches!(extracted.known[*i], Known::Front(_));
+        let evaluated = (0..list.len()).filter(needs_network).collect();
         // Tiles of an image; of another list runs of as many pixels.
         let width = list.size().map_or(list.pixels(), |s| s.0 as usize).max(1);
         let tile_of = |p: usize| {
@@ -154,14 +157,14 @@ impl<'a> Task<'a> {
         let held_out = (0..list.pixels()).into_par_iter().map(out).collect();
         Ok(Self {
             scene,
-            base: extracted.known.into_iter().map(Option::unwrap_or_default).collect(),
+            base: extracted.known.iter().map(Known::factor).collect(),
             evaluated,
             features: extracted.features,
             held_out,
         })
     }
 
-    /// Rows to train on, weighted by what an error of each does to the image.
+    /// Rows to train on, weighted by what an error of each does to the image, and the number of those held out.
     fn rows(&self, mlp: &Mlp) -> (Rows, usize) {
         let list = self.scene.list;
         let width = mlp.feature_set().width();
@@ -172,23 +175,32 @@ impl<'a> Task<'a> {
             weights: Vec::new(),
             pixels: Vec::new(),
         };
-        let mut p = 0;
+        let (mut p, mut held_out) = (0, 0);
         for (row, &i) in self.features.chunks_exact(width).zip(&self.evaluated) {
             while list.offsets()[p + 1] <= i as u64 {
                 p += 1;
             }
-            if self.held_out[p] {
+            if self.held_out[p] || self.base[i] < MIN_FRONT {
+                held_out += usize::from(self.held_out[p]);
                 continue;
             }
             rows.features.extend_from_slice(row);
-            rows.targets.push(self.scene.transmittance[i] as f32);
-            rows.weights.push(self.weight(p, i));
+            // An error of the tail's transmittance is one of T times that of the core in front.
+            let front = self.base[i];
+            rows.targets
+                .push((self.scene.transmittance[i] / f64::from(front)).min(1.0) as f32);
+            rows.weights.push(front * front * self.weight(p, i));
             rows.pixels.push(p as u32);
         }
-        // Nothing is left out altogether: another light may fall on it.
-        normalise(&mut [&mut rows.weights]);
-        rows.weights.iter_mut().for_each(|w| *w = 0.9 * *w + 0.1);
-        let held_out = self.evaluated.len() - rows.len();
+        // Nothing is left out altogether: another light may fall on it. The mean weight becomes 1.
+        let total: f64 = rows.weights.iter().map(|&w| f64::from(w)).sum();
+        let mean = if total > 0.0 {
+            total / rows.weights.len() as f64
+        } else {
+            1.0
+        };
+        let weight = |w: f32| 0.9 * (f64::from(w) / mean) as f32 + 0.1;
+        rows.weights.iter_mut().for_each(|w| *w = weight(*w));
         (rows, held_out)
     }
 
@@ -217,7 +229,7 @@ impl<'a> Task<'a> {
     fn answers(&self, mlp: &Mlp) -> Vec<f32> {
         let mut all = self.base.clone();
         for (&i, t) in self.evaluated.iter().zip(mlp.predict(&self.features)) {
-            all[i] = t;
+            all[i] *= t;
         }
         all
     }
@@ -695,6 +707,17 @@ mod tests {
         let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         let again = one.install(|| specialise(&scene, &small(), &QUICK, &|| false, &|_, _| {}).unwrap());
         assert_eq!(again.mlp.layers(), made.mlp.layers());
+
+        // A network behind a core answers for the tail alone; what is judged is the whole transmittance all the same.
+        let core = crate::model::shipped::named("core-small").unwrap();
+        let plan = Plan {
+            size: SizeChoice::Keep,
+            ..QUICK
+        };
+        let made = specialise(&scene, &core, &plan, &|| false, &|_, _| {}).unwrap();
+        assert!((made.errors_before.image_mse.unwrap() / made.before.error - 1.0).abs() < 0.02);
+        assert!((made.errors_after.image_mse.unwrap() / made.attempts[0].error - 1.0).abs() < 0.02);
+        assert!(made.attempts[0].error < 0.95 * made.before.error, "{made:?}");
 
         let never = Plan {
             target_error: Some(1e-12),

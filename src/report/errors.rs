@@ -40,14 +40,7 @@ pub fn tables(scenes: &[Scene]) -> String {
                 Cell::shown(m.t_mse, error_text),
                 Cell::number(m.t_worst),
                 Cell::number(Some(m.nonfinite)).classed(if m.nonfinite > 0.0 { "bad" } else { "" }),
-                // Methods that keep every fragment say so with the greatest number there is.
-                Cell::shown(m.bits, |b| {
-                    if b >= f64::from(u32::MAX) {
-                        "unbounded".to_owned()
-                    } else {
-                        number(b)
-                    }
-                }),
+                Cell::bits(m.bits),
                 ms(m.seconds[0]),
                 ms(m.seconds[1]),
             ]);
@@ -285,7 +278,7 @@ mod tests {
         let row = |method: &str, t: f64| {
             json!({ "scene": "s", "method": method, "image_mse": t, "image_psnr_db": 30.5, "flip_mean": 0.0123,
                 "transmittance_mse": t, "nonfinite": 0,
-                "bits_per_pixel": u32::MAX, "seconds_accumulate": 0.001, "seconds_weights": 0.25, "fragments": 12345,
+                "bits_per_pixel": null, "seconds_accumulate": 0.001, "seconds_weights": 0.25, "fragments": 12345,
                     "depth_complexity": 8,
                 "by_fragments_per_pixel": [bin(1, 1, 0.0), bin(5, 8, t)], "by_alpha": [{ "least_alpha": 0.1,
                     "most_alpha": 0.2, "fragments": 9, "transmittance_mse": t }] })

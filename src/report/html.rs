@@ -48,6 +48,18 @@ impl Cell {
         }
     }
 
+    /// Memory of a pixel, which may be unbounded.
+    pub fn bits(bits: Option<f64>) -> Self {
+        let form = |bits: f64| {
+            if bits.is_finite() {
+                number(bits)
+            } else {
+                "unbounded".to_owned()
+            }
+        };
+        Self::shown(bits, form)
+    }
+
     /// A drawing of numbers alone.
     pub fn svg(svg: &str) -> Self {
         Self {

@@ -1,7 +1,7 @@
 //! What `nmt evaluate` found, scene by scene.
 
 use super::find::Found;
-use super::value::{list, number, number_or_nan, text};
+use super::value::{bits, list, number, number_or_nan, text};
 use serde_json::Value;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -42,7 +42,7 @@ pub struct Method {
     pub t_worst: Option<f64>,
     /// Answers and channel values that are not finite.
     pub nonfinite: f64,
-    /// Memory of pass 1 \[bits\].
+    /// Memory of pass 1 \[bits\], infinite where it grows with the scene.
     pub bits: Option<f64>,
     /// Time of pass 1 and of pass 2 \[s\].
     pub seconds: [Option<f64>; 2],
@@ -100,7 +100,7 @@ impl Method {
             t_mse: nan_or("transmittance_mse", t_bad),
             t_worst: nan_or("transmittance_worst_error", t_bad),
             nonfinite: count("nonfinite") + count("image_nonfinite"),
-            bits: number(value, &["bits_per_pixel"]),
+            bits: bits(value),
             seconds: [
                 number(value, &["seconds_accumulate"]),
                 number(value, &["seconds_weights"]),

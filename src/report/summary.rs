@@ -82,7 +82,7 @@ fn error(method: &Method) -> Option<f64> {
 
 /// Memory that is bounded \[bits a pixel\].
 fn bits(method: &Method) -> Option<f64> {
-    method.bits.filter(|b| *b > 0.0 && *b < f64::from(u32::MAX))
+    method.bits.filter(|b| *b > 0.0 && b.is_finite())
 }
 
 /// The best of a scene in a sentence.
@@ -186,7 +186,7 @@ mod tests {
         let scene = Scene {
             label: "hair".to_owned(),
             methods: vec![
-                method("abuffer", f64::from(u32::MAX), 0.0),
+                method("abuffer", f64::INFINITY, 0.0),
                 method("neural:a", 300.0, 1e-5),
                 method("moment", 200.0, 1e-4),
                 method("worse", 320.0, 2e-5),

@@ -3,7 +3,7 @@
 use super::find::{Document, Found};
 use super::html::{Cell, Table, number};
 use super::scenes::Scene;
-use super::value::{number as number_of, numbers, text};
+use super::value::{bits as bits_of, number as number_of, numbers, text};
 use crate::chart::{self, Tradeoff};
 use serde_json::Value;
 
@@ -69,7 +69,7 @@ fn of(result: &Value) -> Option<Timed> {
         image_mse: number_of(result, &["image_mse"]),
         t_mse: number_of(result, &["transmittance_mse"]),
         flip: number_of(result, &["flip_mean"]),
-        bits: number_of(result, &["bits_per_pixel"]),
+        bits: bits_of(result),
     })
 }
 
@@ -230,19 +230,12 @@ impl Group {
         ];
         let mut table = Table::new(&format!("{place}: numbers"), &head);
         for (i, r) in self.rows.iter().enumerate() {
-            let bits = |b: f64| {
-                if b >= f64::from(u32::MAX) {
-                    "unbounded".to_owned()
-                } else {
-                    number(b)
-                }
-            };
             table.row(vec![
                 Cell::text(&r.method),
                 Cell::number(Some(r.pass_2)),
                 Cell::number(r.nanoseconds),
                 Cell::number(r.pass_1),
-                Cell::shown(r.bits, bits),
+                Cell::bits(r.bits),
                 Cell::number(r.image_mse),
                 Cell::number(r.flip),
                 Cell::number(r.t_mse),

@@ -7,6 +7,15 @@ pub fn number(value: &Value, keys: &[&str]) -> Option<f64> {
     keys.iter().find_map(|key| value.get(key)?.as_f64())
 }
 
+/// Memory of a pixel that a row tells of \[bits\]: infinite where it grows with the scene, which rows say by null; none
+/// where nothing is said.
+pub fn bits(row: &Value) -> Option<f64> {
+    match row.get("bits_per_pixel")? {
+        Value::Null => Some(f64::INFINITY),
+        bits => bits.as_f64(),
+    }
+}
+
 /// The first of some keys that holds a text.
 pub fn text<'a>(value: &'a Value, keys: &[&str]) -> Option<&'a str> {
     keys.iter().find_map(|key| value.get(key)?.as_str())

@@ -1,5 +1,6 @@
 //! Text of the passes of methods that keep a core.
 
+use super::absorbance;
 use crate::export::core::{CoreLanguage, codes, stride, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
@@ -34,7 +35,7 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
         set.moments + 2,
         codes(set, CoreLanguage::Wgsl),
         weigh,
-        include_str!("absorbance.wgsl"),
+        absorbance(),
     )
 }
 

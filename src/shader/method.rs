@@ -1,6 +1,6 @@
 //! Methods as WGSL: networks by their exports, and what passes put before any method.
 
-use super::{MethodShader, ShaderError};
+use super::{MethodShader, ShaderError, absorbance, log_ratio};
 use crate::export::core::MAX_SHADER_MOMENTS;
 use crate::export::dialect::Wgsl;
 use crate::export::{Format, Target};
@@ -108,15 +108,15 @@ impl MethodShader {
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));
         let depth = match self.depth {
-            MomentDepthKind::Log => include_str!("depth_log.wgsl"),
-            MomentDepthKind::Window | MomentDepthKind::None => include_str!("depth_window.wgsl"),
+            MomentDepthKind::Log => log_ratio() + include_str!("depth_log.wgsl"),
+            MomentDepthKind::Window | MomentDepthKind::None => include_str!("depth_window.wgsl").to_owned(),
         };
         format!(
             "{}\nconst OIT_SUMS = {}u;\n{}{}{depth}{}\n",
             directives.join("\n"),
             self.sums,
             include_str!("prelude.wgsl"),
-            include_str!("absorbance.wgsl"),
+            absorbance(),
             rest.join("\n")
         )
     }

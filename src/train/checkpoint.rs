@@ -93,6 +93,25 @@ pub fn lock_path_for(model: &Path) -> PathBuf {
 }
 
 impl Checkpoint {
+    /// Least validation loss so far.
+    pub fn best_validation(&self) -> f64 {
+        match self.best_epoch {
+            0 => f64::INFINITY,
+            epoch => self.history[epoch as usize - 1].validation,
+        }
+    }
+
+    /// Adds an epoch; its parameters are the best where no epoch before had a lower validation loss.
+    pub fn add(&mut self, losses: Losses, parameters: Vec<f32>, moments: AdamMoments) {
+        if losses.validation < self.best_validation() {
+            self.best_epoch = self.history.len() as u64 + 1;
+            self.best_parameters.clone_from(&parameters);
+        }
+        self.parameters = parameters;
+        self.moments = moments;
+        self.history.push(losses);
+    }
+
     /// Writes the checkpoint, in the place of an older one.
     ///
     /// # Errors

@@ -11,7 +11,6 @@
 
 use super::Optimiser;
 use super::trainer::TrainError;
-use crate::dataset::build::normalise;
 use crate::dataset::file::Manifest;
 use crate::dataset::stream::Making;
 use crate::dataset::{Batch, Blocks, DatasetError, RowStream, Rows};
@@ -236,8 +235,7 @@ impl<'a> Preparation<'a> {
 
     /// Puts fresh rows in random order, as they will stand among the others.
     fn place(&self, making: &Making<'_>, range: Range<usize>) {
-        let placed = making.finish().map(|mut parts| {
-            normalise(&mut parts.iter_mut().map(|part| part.weights_mut()).collect::<Vec<_>>());
+        let placed = making.finish().map(|parts| {
             let mut order: Vec<(u32, u32)> = (0..)
                 .zip(&parts)
                 .flat_map(|(p, part)| (0..part.len() as u32).map(move |row| (p, row)))

@@ -123,50 +123,20 @@ fn fit(
             return Err(TrainError::NoRows(name));
         }
     }
-    let Job {
-        config, seed, backend, ..
-    } = *job;
+    let Job { config, seed, .. } = *job;
     let set = dataset.training.feature_set;
     let shapes = initial::shapes(set.width(), &config.hidden);
     let network =
         |parameters: &[f32], provenance| Mlp::new(job.name, set, initial::layers(&shapes, parameters)?, provenance);
-    let optimiser = |parameters: &[f32]| backend.optimiser(set, &shapes, parameters, config);
+    let optimiser = |parameters: &[f32]| job.backend.optimiser(set, &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
     let mut fitted = optimiser(&parameters)?;
-    let mut done = Checkpoint {
-        format: "nmt-checkpoint".to_owned(),
-        version: CHECKPOINT_VERSION,
-        config: config.clone(),
-        seed,
-        dataset_hash: dataset.manifest.hash.clone(),
-        backend,
-        best_parameters: parameters.clone(),
-        parameters,
-        moments: AdamMoments::default(),
-        best_epoch: 0,
-        history: Vec::new(),
-    };
+    let mut done = begin(dataset, job, parameters);
     if job.resume {
-        let earlier = Checkpoint::load(job.checkpoint)?;
-        earlier.check(
-            job.checkpoint,
-            config,
-            seed,
-            &dataset.manifest.hash,
-            backend,
-            initial::count(&shapes),
-        )?;
-        fitted.restore(&earlier.parameters, &earlier.moments);
-        done = Checkpoint {
-            config: config.clone(),
-            ..earlier
-        };
+        done = continued(done, job.checkpoint)?;
+        fitted.restore(&done.parameters, &done.moments);
     }
-    let best_validation = |done: &Checkpoint| match done.best_epoch {
-        0 => f64::INFINITY,
-        epoch => done.history[epoch as usize - 1].validation,
-    };
 
     let (first, last) = (done.history.len() as u64 + 1, config.epochs * config.seeds);
     let mut feed = Feed::new(&dataset.training, &dataset.manifest, seed, config.batch, first - 1)?;
@@ -191,39 +161,72 @@ fn fit(
         if !validation.is_finite() {
             return Err(TrainError::Diverged { epoch });
         }
-        if validation < best_validation(&done) {
-            done.best_epoch = epoch;
-            done.best_parameters.clone_from(&parameters);
-        }
-        done.parameters = parameters;
-        done.moments = fitted.moments();
         let losses = Losses { training, validation };
-        done.history.push(losses);
+        done.add(losses, parameters, fitted.moments());
         observe(&EpochReport {
             epoch,
             losses,
-            best_validation: best_validation(&done),
+            best_validation: done.best_validation(),
             samples,
         });
         if epoch % config.checkpoint_every == 0 && epoch < last {
             done.save(job.checkpoint)?;
         }
     }
+    let mlp = network(&done.best_parameters, provenance(job, &done))?;
+    Ok(Outcome::Finished {
+        mlp: Box::new(mlp),
+        history: done.history,
+    })
+}
+
+/// The checkpoint of a training before its first epoch.
+fn begin(dataset: &Dataset, job: &Job<'_>, parameters: Vec<f32>) -> Checkpoint {
+    Checkpoint {
+        format: "nmt-checkpoint".to_owned(),
+        version: CHECKPOINT_VERSION,
+        config: job.config.clone(),
+        seed: job.seed,
+        dataset_hash: dataset.manifest.hash.clone(),
+        backend: job.backend,
+        best_parameters: parameters.clone(),
+        parameters,
+        moments: AdamMoments::default(),
+        best_epoch: 0,
+        history: Vec::new(),
+    }
+}
+
+/// The checkpoint that a training goes on from, where it is of the same training.
+fn continued(begun: Checkpoint, path: &Path) -> Result<Checkpoint, CheckpointError> {
+    let earlier = Checkpoint::load(path)?;
+    earlier.check(
+        path,
+        &begun.config,
+        begun.seed,
+        &begun.dataset_hash,
+        begun.backend,
+        begun.parameters.len(),
+    )?;
+    Ok(Checkpoint {
+        config: begun.config,
+        ..earlier
+    })
+}
+
+/// What is known of the origin of the best network.
+fn provenance(job: &Job<'_>, done: &Checkpoint) -> Provenance {
     let best = done.history[done.best_epoch as usize - 1];
-    let provenance = Provenance {
-        seed: Some(seed + (done.best_epoch - 1) / config.epochs),
-        dataset_hash: Some(done.dataset_hash),
-        backend: Some(backend.name().to_owned()),
+    Provenance {
+        seed: Some(job.seed + (done.best_epoch - 1) / job.config.epochs),
+        dataset_hash: Some(done.dataset_hash.clone()),
+        backend: Some(job.backend.name().to_owned()),
         epochs: Some(done.history.len() as u64),
         best_epoch: Some(done.best_epoch),
         training_loss: Some(best.training),
         validation_loss: Some(best.validation),
         ..job.provenance.clone()
-    };
-    Ok(Outcome::Finished {
-        mlp: Box::new(network(&done.best_parameters, provenance)?),
-        history: done.history,
-    })
+    }
 }
 
 fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {

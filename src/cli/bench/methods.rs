@@ -84,20 +84,17 @@ fn wgsl(text: &str) -> Result<Format, String> {
 impl BenchMethods {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
-        let pictures = |out: &Path| [Device::Cpu, Device::Gpu].map(|d| out.join(picture(d)));
         if let Some(out) = &self.out {
             may_write(&out.join(RESULTS), replace)?;
-            pictures(out).iter().try_for_each(|path| may_write(path, replace))?;
+            let mut pictures = [Device::Cpu, Device::Gpu].iter().map(|d| out.join(picture(*d)));
+            pictures.try_for_each(|path| may_write(&path, replace))?;
         }
         let context = self.view.context()?;
         let background = self.view.background()?;
         let (candidates, demanded) = self.candidates()?;
         let plan = self.common.prepare()?;
-        let gpu = if self.device.contains(&Device::Gpu) {
-            self.gpu(ui)?
-        } else {
-            None
-        };
+        let with_gpu = self.device.contains(&Device::Gpu);
+        let gpu = if with_gpu { self.gpu(ui)? } else { None };
 
         let list = load(ui, &self.fragments, &self.options)?;
         let truth = Truth::new(&list, background);
@@ -107,70 +104,16 @@ impl BenchMethods {
             plan,
             skip: self.skip.into(),
         };
-        let devices: Vec<Device> = [Device::Cpu, Device::Gpu]
-            .into_iter()
-            .filter(|d| self.device.contains(d) && (*d == Device::Cpu || gpu.is_some()))
-            .collect();
-        let mut turns = Turns::new(ui, devices.len(), plan);
-        let mut tables = Vec::new();
-        for &device in &devices {
-            let measured = match (device, gpu) {
-                (Device::Gpu, Some(gpu)) => turns.take(&format!("on {}", gpu.name()), |progress| {
-                    setting.on_gpu(gpu, &candidates, &self.format, progress)
-                })?,
-                _ => {
-                    let name = cpu_name();
-                    turns.take(&format!("on {name}"), |progress| {
-                        setting.on_cpu(&name, &candidates, progress)
-                    })?
-                }
-            };
-            tables.push((device, measured));
-        }
-        let figures = tables
-            .iter()
-            .flat_map(|(_, t)| {
-                t.costs
-                    .iter()
-                    .map(|c| (format!("{} on {}", label(c), c.adapter), Summary::of(&c.both)))
-            })
-            .collect::<Vec<_>>();
-        turns.finish(&figures);
+        let tables = self.measure(ui, &setting, &candidates, gpu)?;
 
-        let scene = Path::new(&self.fragments)
-            .file_stem()
-            .unwrap_or(&self.fragments)
-            .to_string_lossy()
-            .into_owned();
-        let mut results: Vec<Value> = Vec::new();
-        for (_, table) in &tables {
-            results.extend(table.costs.iter().map(|c| {
-                let mut row = row_json(&scene, c);
-                if let Some(row) = row.as_object_mut().filter(|_| c.network.is_some()) {
-                    row.insert("skip".to_owned(), json!(Skip::from(self.skip)));
-                }
-                row
-            }));
-            results.extend(
-                table
-                    .left_out
-                    .iter()
-                    .map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why })),
-            );
-        }
+        let scene = Path::new(&self.fragments).file_stem().unwrap_or(&self.fragments);
+        let scene = scene.to_string_lossy();
+        let results = self.rows(&scene, &tables);
         let json = serde_json::to_string_pretty(&ui.report("bench", results))? + "\n";
-        let mut written = String::new();
-        if let Some(out) = &self.out {
-            for (device, table) in &tables {
-                let path = out.join(picture(*device));
-                let Some(text) = chart(&scene, table) else { continue };
-                write_atomically(&path, replace, |w| w.write_all(text.as_bytes()))?;
-                written += &format!("{}\n", path.display());
-            }
-            let path = out.join(RESULTS);
-            write_atomically(&path, replace, |w| w.write_all(json.as_bytes()))?;
-            written += &format!("{}\n", path.display());
-        }
+        let written = match &self.out {
+            Some(out) => write(out, replace, &scene, &tables, &json)?,
+            None => String::new(),
+        };
         if ui.json() {
             ui.print(&json)?;
         } else {
@@ -183,14 +126,59 @@ impl BenchMethods {
             let texts: Vec<String> = tables.iter().map(|(_, t)| table_text(t, plan.repeat)).collect();
             ui.print(&format!("{heading}\n{}{written}", texts.join("\n")))?;
         }
-        let wrong = tables
-            .iter()
-            .flat_map(|(_, t)| &t.left_out)
-            .any(|l| !l.harmless && demanded.contains(&l.method));
-        if wrong {
+        let mut left_out = tables.iter().flat_map(|(_, t)| &t.left_out);
+        if left_out.any(|l| !l.harmless && demanded.contains(&l.method)) {
             bail!("a method that was asked for by name could not be applied; see above");
         }
         Ok(Verdict::Fine)
+    }
+
+    /// A table for each device that was asked for and is there.
+    fn measure(
+        &self,
+        ui: &Ui,
+        setting: &Setting<'_>,
+        candidates: &[Candidate],
+        gpu: Option<&Gpu>,
+    ) -> anyhow::Result<Vec<(Device, Table)>> {
+        let on_cpu = self.device.contains(&Device::Cpu);
+        let mut turns = Turns::new(ui, usize::from(on_cpu) + usize::from(gpu.is_some()), setting.plan);
+        let mut tables = Vec::new();
+        if on_cpu {
+            let name = cpu_name();
+            let measured = turns.take(&format!("on {name}"), |progress| {
+                setting.on_cpu(&name, candidates, progress)
+            })?;
+            tables.push((Device::Cpu, measured));
+        }
+        if let Some(gpu) = gpu {
+            let measured = turns.take(&format!("on {}", gpu.name()), |progress| {
+                setting.on_gpu(gpu, candidates, &self.format, progress)
+            })?;
+            tables.push((Device::Gpu, measured));
+        }
+        let costs = tables.iter().flat_map(|(_, t)| &t.costs);
+        let figure = |c: &Cost| (format!("{} on {}", label(c), c.adapter), Summary::of(&c.both));
+        turns.finish(&costs.map(figure).collect::<Vec<_>>());
+        Ok(tables)
+    }
+
+    /// The results file's rows: what was measured, then what was left out, of each device.
+    fn rows(&self, scene: &str, tables: &[(Device, Table)]) -> Vec<Value> {
+        let measured = |c: &Cost| {
+            let mut row = row_json(scene, c);
+            if let Some(row) = row.as_object_mut().filter(|_| c.network.is_some()) {
+                row.insert("skip".to_owned(), json!(Skip::from(self.skip)));
+            }
+            row
+        };
+        let of_table = |table: &Table| {
+            let left_out = table.left_out.iter();
+            let left_out = left_out
+                .map(|l| json!({ "scene": scene, "method": l.method, "adapter": table.adapter, "error": l.why }));
+            table.costs.iter().map(measured).chain(left_out).collect::<Vec<_>>()
+        };
+        tables.iter().flat_map(|(_, table)| of_table(table)).collect()
     }
 
     /// What to measure, and the names of what was asked for by its own.
@@ -239,6 +227,20 @@ impl BenchMethods {
 fn cpu_name() -> String {
     let cpu = machine()["cpu"].as_str().unwrap_or("CPU").to_owned();
     format!("{cpu} ({} threads)", rayon::current_num_threads())
+}
+
+/// Writes pictures and results into a folder, and lists what was written.
+fn write(out: &Path, replace: Replace, scene: &str, tables: &[(Device, Table)], json: &str) -> anyhow::Result<String> {
+    let mut written = String::new();
+    for (device, table) in tables {
+        let path = out.join(picture(*device));
+        let Some(text) = chart(scene, table) else { continue };
+        write_atomically(&path, replace, |w| w.write_all(text.as_bytes()))?;
+        written += &format!("{}\n", path.display());
+    }
+    let path = out.join(RESULTS);
+    write_atomically(&path, replace, |w| w.write_all(json.as_bytes()))?;
+    Ok(written + &format!("{}\n", path.display()))
 }
 
 fn picture(device: Device) -> String {

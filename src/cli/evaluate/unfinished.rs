@@ -2,7 +2,6 @@
 //! done.
 
 use super::{Row, SceneResults};
-use crate::model::{Mlp, file::to_json};
 use crate::numeric::digest::sha256_hex;
 use crate::numeric::file::{FileError, Lock, Replace, create_folder, write_atomically};
 use crate::pixel::FragmentList;
@@ -49,7 +48,7 @@ impl Unfinished {
     ///
     /// # Errors
     /// Another process works there, or another command was interrupted there.
-    pub fn begin(out: &Path, models: &[Mlp], replace: Replace) -> anyhow::Result<(Self, Replace)> {
+    pub fn begin(out: &Path, models: &[Vec<u8>], replace: Replace) -> anyhow::Result<(Self, Replace)> {
         create_folder(out)?;
         let lock = Lock::acquire(&out.join("evaluate.lock"))?;
         let command = command(models);
@@ -150,12 +149,11 @@ fn with_infinities(mut rows: Vec<Row>) -> Vec<Row> {
     rows
 }
 
-/// Digest of the command as it was typed, of the networks that it names, and of the program's version.
-fn command(models: &[Mlp]) -> String {
+/// Digest of the command as it was typed, of the model files that it names, and of the program's version.
+fn command(models: &[Vec<u8>]) -> String {
     let effective = |argument: &OsString| !WITHOUT_EFFECT.iter().any(|none| argument == none);
     let arguments: Vec<OsString> = std::env::args_os().skip(1).filter(effective).collect();
-    let networks: Vec<String> = models.iter().map(to_json).collect();
     let commit = option_env!("NMT_COMMIT").unwrap_or("");
-    let text = format!("{} {commit} {arguments:?} {networks:?}", env!("CARGO_PKG_VERSION"));
-    sha256_hex([text.as_bytes()])
+    let text = format!("{} {commit} {arguments:?}", env!("CARGO_PKG_VERSION"));
+    sha256_hex(std::iter::once(text.as_bytes()).chain(models.iter().map(Vec::as_slice)))
 }

@@ -3,15 +3,36 @@
 use super::code::{Codes, CoreFragment};
 use super::pixel::{Answer, Between, Passes, Query, with_sums};
 use super::{CoreSet, FIXED};
-use crate::features::{Extractor, Sampled};
+use crate::features::{Extractor, Known, Sampled};
 use crate::numeric::rng::Stream;
 use crate::pixel::{DepthError, Pixel, absorbance};
 use rand::RngExt;
 
 /// [`FeatureSpec::pixel`](crate::features::FeatureSpec::pixel) of sets with a core.
-pub(super) fn pixel(e: &Extractor, pixel: Pixel<'_>, out: &mut [f32]) -> Result<(), DepthError> {
+pub(super) fn pixel(
+    e: &Extractor,
+    pixel: Pixel<'_>,
+    features: &mut [f32],
+    known: &mut [Known],
+) -> Result<(), DepthError> {
     let (set, codes) = e.codes();
-    all_rows(&set, &codes, pixel, out);
+    with_sums!(set.moments, N => {
+        let mut passes = Passes::default();
+        let between: Between<N> = passes.first(&set, &codes, pixel);
+        let rows = features.chunks_exact_mut(FIXED + set.moments).zip(known);
+        for ((row, known), &fragment) in rows.zip(&passes.fragments) {
+            match between.answer(&codes, fragment) {
+                Answer::Depth(depth) => {
+                    row.fill(0.0);
+                    *known = Known::Transmittance((-depth).exp());
+                }
+                Answer::Query(query) => {
+                    write(&query, row);
+                    *known = Known::Front((-query.front).exp());
+                }
+            }
+        }
+    });
     Ok(())
 }
 
@@ -26,8 +47,6 @@ pub(super) fn sample(e: &Extractor, pixel: Pixel<'_>, most: usize, rng: &mut Str
     sampled_rows(&set, &codes, pixel, most, rng, &mut made);
     (rows.features, rows.targets) = (made.features, made.targets);
     rows.of_pixel = made.fragments.len();
-    rows.alpha
-        .extend(made.fragments.iter().map(|&i| pixel.alpha[i as usize]));
 }
 
 /// Rows of a pixel that a network is trained on.
@@ -41,47 +60,26 @@ pub struct TrainingRows {
     pub fragments: Vec<u32>,
 }
 
-/// Features of every fragment of a pixel and its transmittance where no network is needed, else NaN.
-///
-/// # Shapes
-/// `out: [n, W + 1]`; features beside a known transmittance are 0.
-///
-/// # Panics
-/// If `out` has another length.
-pub fn all_rows(set: &CoreSet, codes: &Codes, pixel: Pixel<'_>, out: &mut [f32]) {
-    let width = FIXED + set.moments;
-    assert_eq!(
-        out.len(),
-        pixel.len() * (width + 1),
-        "one row of {} numbers a fragment",
-        width + 1
-    );
-    with_sums!(set.moments, N => {
-        let mut passes = Passes::default();
-        let between: Between<N> = passes.first(set, codes, pixel);
-        for (row, &fragment) in out.chunks_exact_mut(width + 1).zip(&passes.fragments) {
-            row.fill(0.0);
-            row[width] = match between.answer(codes, fragment) {
-                Answer::Depth(depth) => (-depth).exp(),
-                Answer::Query(query) => {
-                    write(&query, &mut row[..width]);
-                    f32::NAN
-                }
-            };
-        }
-    });
-}
-
 fn write<const N: usize>(query: &Query<N>, row: &mut [f32]) {
     row[..FIXED].copy_from_slice(&query.fixed);
     row[FIXED..].copy_from_slice(&query.described[1..]);
 }
 
+/// Least probability with which a fragment is chosen for the sake of its tail.
+const LEAST_INTEREST: f32 = 0.2;
+
+/// How much there is to learn from a fragment: by how much its tail's moments leave the tail's transmittance open, from
+/// [`LEAST_INTEREST`] to 1. In deep pixels most fragments are behind so much that nothing is open.
+fn interest<const N: usize>(query: &Query<N>) -> f32 {
+    let [lower, upper] = [query.fixed[3], query.fixed[4]].map(|share| (-query.tail * share).exp());
+    LEAST_INTEREST + (1.0 - LEAST_INTEREST) * (lower - upper).clamp(0.0, 1.0)
+}
+
 /// Appends rows of at most `most` fragments of a pixel that need a network, chosen at random.
 ///
 /// An error of the tail's transmittance is an error of T times e^−(core in front). So that squared errors count as
-/// those of
-/// T do, a fragment is chosen with probability e^−2(core in front).
+/// those of T do, a fragment is chosen with probability e^−2(core in front), times [`interest`]. Both are known to the
+/// network, so that what it learns to answer is still the mean of the answers that look alike.
 pub fn sampled_rows(
     set: &CoreSet,
     codes: &Codes,
@@ -106,7 +104,7 @@ pub fn sampled_rows(
             let Answer::Query(query) = between.answer(codes, passes.fragments[at]) else {
                 continue;
             };
-            if rng.unit() >= f64::from((-2.0 * query.front).exp()) {
+            if rng.unit() >= f64::from((-2.0 * query.front).exp() * interest(&query)) {
                 continue;
             }
             if tail.is_empty() {
@@ -139,4 +137,25 @@ fn tail_of<const N: usize>(
         }
     }
     debug_assert!(core.is_empty(), "{codes:?}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tail that the moments leave open interests fully, one of which all is known, or behind which nothing is seen,
+    /// least.
+    #[test]
+    fn what_is_open_interests() {
+        let query = |tail, lower, upper| Query::<5> {
+            front: 0.0,
+            tail,
+            fixed: [0.0, 0.0, 0.0, lower, upper],
+            described: [1.0, 0.0, 0.3, 0.0, 0.2],
+        };
+        assert!((interest(&query(20.0, 0.0, 1.0)) - 1.0).abs() < 1e-6);
+        for known in [query(20.0, 0.4, 0.4), query(20.0, 0.9, 1.0), query(0.0, 0.0, 1.0)] {
+            assert!((interest(&known) - LEAST_INTEREST).abs() < 1e-3);
+        }
+    }
 }

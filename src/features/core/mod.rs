@@ -125,8 +125,6 @@ const fn spec<const M: usize>(name: &'static str, answer: &'static str, heavy: u
         description: &DESCRIPTION,
         sums: Sums {
             moments: M,
-            // RGBA32F colour and weight sum besides.
-            bits_per_pixel: 128 + core.bits(),
             has_precisions: false,
         },
         core: Some(core),

@@ -99,7 +99,6 @@ pub struct Between<const N: usize> {
     len: usize,
     /// Fragments of the tail.
     count: u32,
-    farthest: u32,
     /// Moment depths of the nearest and the farthest.
     ends: [f32; 2],
     total: f32,
@@ -139,7 +138,6 @@ impl<const N: usize> Between<N> {
             core,
             len,
             count: sums.count - len as u32,
-            farthest,
             ends,
             total: sums.b[0],
             tail: recentred(tail, center, per_h),
@@ -157,53 +155,16 @@ impl<const N: usize> Between<N> {
     /// Pass 2: what is known of a fragment that pass 1 has added.
     #[inline(always)]
     pub fn answer(&self, codes: &Codes, fragment: CoreFragment) -> Answer<N> {
-        let (mut front, mut in_core) = (0.0, false);
-        for (core, absorbance) in self.core[..self.len].iter().zip(self.absorbance) {
-            if core.depth_step < fragment.depth_step {
-                front += absorbance;
-            }
-            in_core |= *core == fragment;
-        }
-        if self.len == 0 || fragment.depth_step <= self.core[0].depth_step {
-            return Answer::Depth(0.0);
-        }
-        let in_tail = !in_core && fragment.absorbance_step > 0;
-        let count = self.count - u32::from(in_tail && self.count > 0);
-        if count == 0 {
-            return Answer::Depth(front);
-        }
-        let x = ((codes.moment_depth(fragment.depth_step) - self.center) * self.per_h).clamp(-1.0, 1.0);
-        let tail = if in_tail {
-            without(self.tail, codes.absorbance(fragment.absorbance_step), x)
+        let z = codes.moment_depth(fragment.depth_step);
+        let answers = self.answers(z, codes.absorbance(fragment.absorbance_step));
+        if answers.is_known {
+            Answer::Depth(answers.depth)
         } else {
-            self.tail
-        };
-        let absorbance = absorbance_of(tail);
-        if fragment.depth_step >= self.farthest {
-            return Answer::Depth(front + absorbance);
+            Answer::Query(answers.query)
         }
-        let m = normalised(tail);
-        if count == 1 || (count == 2 && N > 3) {
-            let noise = place_noise(self.total, absorbance, self.center, self.per_h);
-            let share = if count == 1 || N <= 3 {
-                share_of_one(x, m[1], self.step, noise)
-            } else {
-                share_of_two(x, [m[1], m[2], m[3.min(N - 1)]], self.step, noise)
-            };
-            return Answer::Depth(front + absorbance * share);
-        }
-        Answer::Query(Query {
-            front,
-            tail: absorbance,
-            fixed: fixed_features(x, count as f32, absorbance, m),
-            described: described(m),
-        })
     }
-}
 
-impl<const N: usize> Between<N> {
-    /// [`Self::answer`] without branches, for fragments side by side: their moment depths and absorbances as their
-    /// steps have them.
+    /// [`Self::answer`] for fragments side by side: their moment depths and absorbances as their steps have them.
     #[inline(always)]
     pub fn answers<R: Real>(&self, z: R, absorbance: R) -> Answers<N, R> {
         let number = |value: f32| z.like(value.into());

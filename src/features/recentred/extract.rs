@@ -2,7 +2,7 @@
 
 use super::formulas::moments;
 use super::{FragmentTerms, Pass2Input, PixelSums, columns};
-use crate::features::extract::{Extractor, MomentFrame, Sampled, SumPrecision};
+use crate::features::extract::{Extractor, Known, MomentFrame, Sampled, SumPrecision};
 use crate::moments::storage::through_unorm16;
 use crate::numeric::lanes::{LANES, Lanes};
 use crate::numeric::quantise::round_f16;
@@ -38,29 +38,27 @@ fn pass_1<const K: usize>(
     (sums, ends)
 }
 
-/// Features of every fragment of a pixel, and what is known without the network.
-pub(super) fn pixel<const K: usize>(e: &Extractor, pixel: Pixel<'_>, out: &mut [f32]) -> Result<(), DepthError> {
-    let width = columns(K).len();
-    assert_eq!(
-        out.len(),
-        pixel.len() * (width + 1),
-        "one row of {} numbers a fragment",
-        width + 1
-    );
+/// Features of every fragment of a pixel, and what is known without the network; see [`Extractor::pixel`].
+pub(super) fn pixel<const K: usize>(
+    e: &Extractor,
+    pixel: Pixel<'_>,
+    features: &mut [f32],
+    known: &mut [Known],
+) -> Result<(), DepthError> {
     let mut terms = Vec::with_capacity(pixel.len());
     let (sums, ends) = pass_1::<K>(e, pixel, e.scale.log_warp(), &mut terms);
-    for (row, terms) in out.chunks_exact_mut(width + 1).zip(terms) {
-        row[width] = match sums.classify_stored(terms, ends, e.precision.rounding()) {
+    let rows = features.chunks_exact_mut(columns(K).len()).zip(known);
+    for ((row, known), terms) in rows.zip(terms) {
+        match sums.classify_stored(terms, ends, e.precision.rounding()) {
             Pass2Input::Solved(t) => {
-                row[..width].fill(0.0);
-                t
+                row.fill(0.0);
+                *known = Known::Transmittance(t);
             }
             Pass2Input::Query(first, measure) => {
                 row[..first.len()].copy_from_slice(&first);
-                row[first.len()..width].copy_from_slice(&measure);
-                f32::NAN
+                row[first.len()..].copy_from_slice(&measure);
             }
-        };
+        }
     }
     Ok(())
 }

@@ -81,7 +81,6 @@ const fn spec<const K: usize>(name: &'static str, answer: &'static str) -> Featu
             moments: K,
             // RGBA32F colour and weight sum, R32F b0, R16F count, RG32F depth range, and as many f32 as there are
             // moments.
-            bits_per_pixel: 128 + 32 + 16 + 64 + 32 * K as u32,
             has_precisions: true,
         },
         core: None,

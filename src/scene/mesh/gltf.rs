@@ -155,10 +155,15 @@ fn document(path: &Path, json: &Value) -> Result<gltf::Document, SceneError> {
     gltf::Document::from_json(root).map_err(|e| wrong(e.to_string()))
 }
 
-/// The objects of an array, which may not be there.
-fn objects<'a>(value: &'a mut Value, field: &str) -> impl Iterator<Item = &'a mut serde_json::Map<String, Value>> {
+/// The members of an array, which may not be there.
+fn members<'a>(value: &'a mut Value, field: &str) -> impl Iterator<Item = &'a mut Value> {
     let array = value.get_mut(field).and_then(Value::as_array_mut);
-    array.into_iter().flatten().filter_map(Value::as_object_mut)
+    array.into_iter().flatten()
+}
+
+/// Those that are objects.
+fn objects<'a>(value: &'a mut Value, field: &str) -> impl Iterator<Item = &'a mut serde_json::Map<String, Value>> {
+    members(value, field).filter_map(Value::as_object_mut)
 }
 
 /// Removes all that is not read.
@@ -200,12 +205,7 @@ fn remove_unread(document: &mut Value) {
             unread.iter().for_each(|name| drop(object.remove(*name)));
         }
     }
-    for mesh in document
-        .get_mut("meshes")
-        .and_then(Value::as_array_mut)
-        .into_iter()
-        .flatten()
-    {
+    for mesh in members(document, "meshes") {
         for primitive in objects(mesh, "primitives") {
             for name in ["targets", "extensions", "extras"] {
                 primitive.remove(name);
