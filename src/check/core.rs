@@ -154,7 +154,7 @@ fn error_of(wgsl: &str, set: CoreSet, rows: &[Row]) -> Result<AbsoluteError, Str
 pub fn without_atomics(text: &str, language: CoreLanguage) -> Result<String, String> {
     let step = match language {
         CoreLanguage::Hlsl => "uint old;\n    InterlockedMax(nmt_core[slot], code, old);\n    return min(old, code);",
-        _ => "return min(atomicMax(nmt_core[slot], code), code);",
+        _ => "uint old = atomicMax(nmt_core[slot], code);\n    return min(old, code);",
     };
     if !text.contains(step) {
         return Err("the atomic step of the insertion chain is not there".to_owned());

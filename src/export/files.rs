@@ -8,6 +8,7 @@ use crate::features::core::CoreSet;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
+use crate::numeric::source::Type;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -313,11 +314,7 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
 /// What passes of a core are filled in with beside what all are.
 fn of_core(text: &str, set: CoreSet, language: core::CoreLanguage) -> String {
     const LANES: [&str; 4] = ["x", "y", "z", "w"];
-    let vector = match language {
-        core::CoreLanguage::Wgsl => "vec4<f32>",
-        core::CoreLanguage::Glsl => "vec4",
-        core::CoreLanguage::Hlsl => "float4",
-    };
+    let vector = language.dialect().type_name(Type::Vec4);
     let numbers = set.moments + 2;
     let term = |number: usize| match number {
         0 => "absorbance".to_owned(),

@@ -284,7 +284,8 @@ impl SceneFile {
         Ok(())
     }
 
-    /// The camera: the file's, a built-in scene's own, or one that is placed for what the files hold.
+    /// The camera: the file's, a built-in scene's own, or one that is placed for what the files hold. What of them is
+    /// left out is told by [`Self::geometry`] and by every list that is built.
     ///
     /// # Errors
     /// [`SceneError`] for files that cannot be read, where the camera is placed for them.
@@ -304,19 +305,17 @@ impl SceneFile {
         }
     }
 
-    /// What there is to see: surfaces and particles, for a renderer of one's own.
+    /// What there is to see, surfaces and particles for a renderer of one's own, and what of the files is left out.
     ///
     /// # Errors
     /// [`SceneError`] for a mesh that cannot be read.
-    pub fn geometry(&self) -> Result<Geometry, SceneError> {
-        match &self.built_in {
-            Some(name) => Ok(procedural::geometry(
-                name,
-                self.seed.unwrap_or(1),
-                self.camera()?.position,
-            )),
-            None => self.content(&mut Vec::new()),
-        }
+    pub fn geometry(&self) -> Result<(Geometry, Vec<LeftOut>), SceneError> {
+        let mut left_out = Vec::new();
+        let geometry = match &self.built_in {
+            Some(name) => procedural::geometry(name, self.seed.unwrap_or(1), self.camera()?.position),
+            None => self.content(&mut left_out)?,
+        };
+        Ok((geometry, left_out))
     }
 
     /// The file that this was read from.

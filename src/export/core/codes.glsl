@@ -43,8 +43,14 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     uint shift = max(uint(findMSB(range) + 1), NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
     uint multiplier = 0x80000000u / ((range >> shift) + 1u);
     uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
-    uint slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
-    return NmtCodes(first, last, first_log2, shift, multiplier, slope);
+    NmtCodes codes;
+    codes.first_bits = first;
+    codes.last_bits = last;
+    codes.first_log2 = first_log2;
+    codes.shift = shift;
+    codes.multiplier = multiplier;
+    codes.slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
+    return codes;
 }
 
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.

@@ -13,7 +13,8 @@ uint nmt_core_offer(uint slot, uint code) {
     if (nmt_core[slot] >= code) {
         return code;
     }
-    return min(atomicMax(nmt_core[slot], code), code);
+    uint old = atomicMax(nmt_core[slot], code);
+    return min(old, code);
 }
 
 // Offers a fragment, by its steps, to the core of a pixel.

@@ -42,6 +42,42 @@ impl CoreLanguage {
     }
 }
 
+/// What the pieces of a core say in GLSL, and in HLSL.
+const HLSL_FOR_GLSL: [(&str, &str); 12] = [
+    (
+        "layout(std430, binding = CORE_BINDING) coherent buffer NmtCore { uint nmt_core[]; };",
+        "globallycoherent RWStructuredBuffer<uint> nmt_core : register(uCORE_BINDING);",
+    ),
+    (
+        "declare `layout(early_fragment_tests) in;`",
+        "declare `[earlydepthstencil]`",
+    ),
+    (
+        "uint old = atomicMax(nmt_core[slot], code);",
+        "uint old;\n    InterlockedMax(nmt_core[slot], code, old);",
+    ),
+    ("uint(findMSB(range) + 1)", "firstbithigh(range) + 1u"),
+    ("\nconst ", "\nstatic const "),
+    ("floatBitsToInt", "asint"),
+    ("floatBitsToUint", "asuint"),
+    ("uintBitsToFloat", "asfloat"),
+    ("uvec2", "uint2"),
+    ("uvec4", "uint4"),
+    ("vec2", "float2"),
+    ("vec4", "float4"),
+];
+
+/// A piece of a core: WGSL has a text of its own, HLSL is GLSL in other words.
+fn piece(language: CoreLanguage, wgsl: &str, glsl: &str) -> String {
+    match language {
+        CoreLanguage::Wgsl => wgsl.to_owned(),
+        CoreLanguage::Glsl => glsl.to_owned(),
+        CoreLanguage::Hlsl => HLSL_FOR_GLSL
+            .iter()
+            .fold(glsl.to_owned(), |text, (glsl, hlsl)| text.replace(glsl, hlsl)),
+    }
+}
+
 /// Languages among formats, in which a network's core is written beside it.
 pub fn chain_languages(formats: &[Format]) -> Vec<CoreLanguage> {
     let wanted = |language: &CoreLanguage| formats.contains(&language.format());
@@ -70,12 +106,8 @@ pub fn stride(set: CoreSet) -> usize {
 /// Codes of fragments: constants, `NmtCodes`, `nmt_core_codes`, `nmt_core_steps`, what steps stand for, and codes of
 /// every kind of slot with their inverses.
 pub fn codes(set: CoreSet, language: CoreLanguage) -> String {
-    let text = match language {
-        CoreLanguage::Wgsl => include_str!("codes.wgsl"),
-        CoreLanguage::Glsl => include_str!("codes.glsl"),
-        CoreLanguage::Hlsl => include_str!("codes.hlsl"),
-    };
-    text.replace("CORE_DEPTH_BITS", &set.layout.depth_bits.to_string())
+    piece(language, include_str!("codes.wgsl"), include_str!("codes.glsl"))
+        .replace("CORE_DEPTH_BITS", &set.layout.depth_bits.to_string())
         .replace("CORE_OCTAVE_BITS", &set.layout.octave_bits.to_string())
         .replace("CORE_HEAVY", &set.heavy.to_string())
         .replace("CORE_SLOTS", &stride(set).to_string())
@@ -85,12 +117,8 @@ pub fn codes(set: CoreSet, language: CoreLanguage) -> String {
 
 /// The insertion chain, which stands behind [`codes`]: `nmt_core_insert`, and the buffer that it fills.
 pub fn insert(language: CoreLanguage, place: CoreBinding) -> String {
-    let text = match language {
-        CoreLanguage::Wgsl => include_str!("insert.wgsl"),
-        CoreLanguage::Glsl => include_str!("insert.glsl"),
-        CoreLanguage::Hlsl => include_str!("insert.hlsl"),
-    };
-    text.replace("CORE_GROUP", &place.group.to_string())
+    piece(language, include_str!("insert.wgsl"), include_str!("insert.glsl"))
+        .replace("CORE_GROUP", &place.group.to_string())
         .replace("CORE_BINDING", &place.binding.to_string())
 }
 

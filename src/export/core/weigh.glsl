@@ -1,7 +1,7 @@
 
 // What a slot stands for: moment depth and absorbance of its fragment, 0 and 0 where it is empty.
 vec2 nmt_core_slot(uint code, uvec2 steps) {
-    return code > 0u ? vec2(nmt_core_depth(steps), nmt_core_absorbance(steps)) : vec2(0.0);
+    return code > 0u ? vec2(nmt_core_depth(steps), nmt_core_absorbance(steps)) : vec2(0.0, 0.0);
 }
 
 // Transmittance in front of a fragment, by its steps: from the slots of its pixel, four to a vector, and what pass 1 has

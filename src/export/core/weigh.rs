@@ -3,8 +3,7 @@
 //! The formulas are those of [`crate::features::core::formulas`], written out by the expressions of [`Source`]; only
 //! the slots are unpacked by text.
 
-use super::CoreLanguage;
-use super::stride;
+use super::{CoreLanguage, piece, stride};
 use crate::export::dialect::{Glsl, Hlsl, Wgsl};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
@@ -20,7 +19,8 @@ use crate::numeric::source::{Dialect, Expression, Source, Type};
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
 impl CoreLanguage {
-    pub(super) fn dialect(self) -> &'static dyn Dialect {
+    /// How its numbers and vectors are spelled.
+    pub fn dialect(self) -> &'static dyn Dialect {
         match self {
             Self::Wgsl => &Wgsl,
             Self::Glsl => &Glsl,
@@ -82,11 +82,7 @@ fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
         3 => on_numbers::<4>(set, language, tail),
         _ => on_numbers::<5>(set, language, tail),
     };
-    let text = match language {
-        CoreLanguage::Wgsl => include_str!("weigh.wgsl"),
-        CoreLanguage::Glsl => include_str!("weigh.glsl"),
-        CoreLanguage::Hlsl => include_str!("weigh.hlsl"),
-    };
+    let text = piece(language, include_str!("weigh.wgsl"), include_str!("weigh.glsl"));
     let vectors = stride(set) / 4;
     let dialect = language.dialect();
     let [real, vec4, word4] = [Type::Real, Type::Vec4, Type::Word4].map(|of| dialect.type_name(of));
