@@ -5,7 +5,8 @@ use super::cases::Fragments;
 use super::subject::{Doubles, Subject};
 use crate::oit::Context;
 use crate::pixel::abuffer;
-use crate::synth::config::{CountLaw, DepthLaw, FragmentCount, PixelRange, Range};
+use crate::synth::config::Range;
+use crate::synth::law::{CountLaw, FragmentCount, PixelLaw};
 use crate::synth::{Purpose, Synth, SynthConfig};
 use serde::Serialize;
 
@@ -53,7 +54,7 @@ impl Point {
 }
 
 /// Random pixels of the distribution that networks are trained on, changed in one thing.
-fn pixels(change: impl Fn(&mut crate::synth::config::PixelLaw), count: usize) -> Fragments {
+fn pixels(change: impl Fn(&mut PixelLaw), count: usize) -> Fragments {
     let mut config = SynthConfig::wide();
     config.pixels.iter_mut().for_each(change);
     let list = Synth::new(config, SEED)
@@ -73,10 +74,8 @@ fn pixels(change: impl Fn(&mut crate::synth::config::PixelLaw), count: usize) ->
 pub fn of_half_range(half: f64, count: usize) -> Fragments {
     pixels(
         |law| {
-            if !matches!(law.depth, DepthLaw::Window { .. }) {
-                law.range = Some(PixelRange {
-                    half: Range { min: half, max: half },
-                });
+            if let Some(range) = &mut law.range {
+                range.half = Range { min: half, max: half };
             }
         },
         count,

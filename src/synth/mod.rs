@@ -1,12 +1,12 @@
 //! Random pixels: distributions in, fragment lists out.
 
 pub mod config;
-mod draw;
+pub mod law;
 
 use crate::numeric::rng::{Stream, stream};
 use crate::pixel::{FragmentList, Pixel};
 pub use config::{SynthConfig, SynthError};
-use draw::{Camera, Law, Scratch};
+use law::{Camera, Prepared, Scratch};
 use rayon::prelude::*;
 
 /// Pixels that one task draws: enough to pay for the task, few enough that their fragments stay in the cache.
@@ -29,7 +29,7 @@ pub struct Synth {
     config: SynthConfig,
     seed: u64,
     camera: Camera,
-    laws: Vec<Law>,
+    laws: Vec<Prepared>,
     /// Shares of the laws, added up: the last is 1.
     shares: Vec<f64>,
 }
@@ -66,7 +66,7 @@ impl Synth {
         Ok(Self {
             seed,
             camera: Camera::new(config.camera),
-            laws: config.pixels.iter().map(Law::new).collect(),
+            laws: config.pixels.iter().map(Prepared::new).collect(),
             shares: config.pixels.iter().map(|law| share(law.weight)).collect(),
             config,
         })
@@ -141,7 +141,7 @@ impl Synth {
     }
 
     /// The law of a pixel. Where there is only one, no number is drawn for it.
-    fn law(&self, rng: &mut Stream) -> &Law {
+    fn law(&self, rng: &mut Stream) -> &Prepared {
         match self.laws.as_slice() {
             [only] => only,
             laws => {
@@ -158,7 +158,9 @@ impl Synth {
 
 #[cfg(test)]
 mod tests {
-    use super::config::*;
+    use super::law::alpha::{AlphaReading, Uniform};
+    use super::law::depth::{DepthReading, Window};
+    use super::law::{CountLaw, DepthLaw, FragmentCount, PixelLaw};
     use super::*;
 
     /// The paper's distribution, changed.
@@ -169,7 +171,7 @@ mod tests {
     }
 
     fn window(min: f64, max: f64, reading: DepthReading) -> DepthLaw {
-        DepthLaw::Window { min, max, reading }
+        Window { min, max, reading }.into()
     }
 
     fn windows(list: &FragmentList, p: usize) -> Vec<f64> {
@@ -261,12 +263,12 @@ mod tests {
             let (lo, hi) = w.iter().fold((1.0f64, 0.0f64), |(lo, hi), &w| (lo.min(w), hi.max(w)));
             assert!((0.3 - 1e-6..=1.0).contains(&(hi - lo)), "extent {}", hi - lo);
         }
-        let per_pixel = AlphaLaw::Uniform {
+        let per_pixel = Uniform {
             min: 0.1,
             max: 0.5,
             reading: AlphaReading::PerPixel,
         };
-        let shared = synth(|law| law.alpha = per_pixel).pixels(Purpose::Training, 0, 500);
+        let shared = synth(|law| law.alpha = per_pixel.into()).pixels(Purpose::Training, 0, 500);
         assert!((0..shared.pixels()).all(|p| shared.pixel(p).alpha.iter().all(|&a| a == shared.pixel(p).alpha[0])));
         let single = synth(|law| {
             law.fragments = FragmentCount {
