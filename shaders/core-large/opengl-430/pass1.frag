@@ -8,7 +8,7 @@
 // the passes.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 const uint NMT_DEPTH_BITS = 16u;
@@ -49,8 +49,14 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     uint shift = max(uint(findMSB(range) + 1), NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
     uint multiplier = 0x80000000u / ((range >> shift) + 1u);
     uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
-    uint slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
-    return NmtCodes(first, last, first_log2, shift, multiplier, slope);
+    NmtCodes codes;
+    codes.first_bits = first;
+    codes.last_bits = last;
+    codes.first_log2 = first_log2;
+    codes.shift = shift;
+    codes.multiplier = multiplier;
+    codes.slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
+    return codes;
 }
 
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.
@@ -118,7 +124,8 @@ uint nmt_core_offer(uint slot, uint code) {
     if (nmt_core[slot] >= code) {
         return code;
     }
-    return min(atomicMax(nmt_core[slot], code), code);
+    uint old = atomicMax(nmt_core[slot], code);
+    return min(old, code);
 }
 
 // Offers a fragment, by its steps, to the core of a pixel.

@@ -4,7 +4,7 @@
 // Textures: target 0 of pass 1, then the target of pass 2.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -7,7 +7,7 @@
 // Buffer of group 3: 8 words a pixel, cleared to 0.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 const NMT_DEPTH_BITS: u32 = 16u;

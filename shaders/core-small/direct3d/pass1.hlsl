@@ -6,7 +6,7 @@
 // Buffer u2, behind the targets, whose slots Direct3D 11 shares with it: 4 words a pixel, cleared to 0.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 static const uint NMT_DEPTH_BITS = 16u;

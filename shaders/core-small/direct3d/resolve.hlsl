@@ -4,7 +4,7 @@
 // Textures: target 0 of pass 1, then the target of pass 2.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -4,7 +4,7 @@
 // Textures: target 0 of pass 1, then the target of pass 2.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background

@@ -11,7 +11,7 @@ precision highp float;
 precision highp int;
 
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
-// Provenance: nmt 0.1.0, commit 38d1fbcbf275, backend fused, seed 1, epochs 150, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
+// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
 // Measured error: none recorded; 'nmt predict' measures it on fragment lists.
 
 const uint NMT_DEPTH_BITS = 16u;
@@ -52,8 +52,14 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     uint shift = max(uint(findMSB(range) + 1), NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
     uint multiplier = 0x80000000u / ((range >> shift) + 1u);
     uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
-    uint slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
-    return NmtCodes(first, last, first_log2, shift, multiplier, slope);
+    NmtCodes codes;
+    codes.first_bits = first;
+    codes.last_bits = last;
+    codes.first_log2 = first_log2;
+    codes.shift = shift;
+    codes.multiplier = multiplier;
+    codes.slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
+    return codes;
 }
 
 // Absorbance min(-ln(1 - alpha), 10) of an opacity.
@@ -121,7 +127,8 @@ uint nmt_core_offer(uint slot, uint code) {
     if (nmt_core[slot] >= code) {
         return code;
     }
-    return min(atomicMax(nmt_core[slot], code), code);
+    uint old = atomicMax(nmt_core[slot], code);
+    return min(old, code);
 }
 
 // Offers a fragment, by its steps, to the core of a pixel.

@@ -65,21 +65,10 @@ fn write<const N: usize>(query: &Query<N>, row: &mut [f32]) {
     row[FIXED..].copy_from_slice(&query.described[1..]);
 }
 
-/// Least probability with which a fragment is chosen for the sake of its tail.
-const LEAST_INTEREST: f32 = 0.2;
-
-/// How much there is to learn from a fragment: by how much its tail's moments leave the tail's transmittance open, from
-/// [`LEAST_INTEREST`] to 1. In deep pixels most fragments are behind so much that nothing is open.
-fn interest<const N: usize>(query: &Query<N>) -> f32 {
-    let [lower, upper] = [query.fixed[3], query.fixed[4]].map(|share| (-query.tail * share).exp());
-    LEAST_INTEREST + (1.0 - LEAST_INTEREST) * (lower - upper).clamp(0.0, 1.0)
-}
-
 /// Appends rows of at most `most` fragments of a pixel that need a network, chosen at random.
 ///
 /// An error of the tail's transmittance is an error of T times e^−(core in front). So that squared errors count as
-/// those of T do, a fragment is chosen with probability e^−2(core in front), times [`interest`]. Both are known to the
-/// network, so that what it learns to answer is still the mean of the answers that look alike.
+/// those of T do, a fragment is chosen with probability e^−2(core in front).
 pub fn sampled_rows(
     set: &CoreSet,
     codes: &Codes,
@@ -104,7 +93,7 @@ pub fn sampled_rows(
             let Answer::Query(query) = between.answer(codes, passes.fragments[at]) else {
                 continue;
             };
-            if rng.unit() >= f64::from((-2.0 * query.front).exp() * interest(&query)) {
+            if rng.unit() >= f64::from((-2.0 * query.front).exp()) {
                 continue;
             }
             if tail.is_empty() {
@@ -137,25 +126,4 @@ fn tail_of<const N: usize>(
         }
     }
     debug_assert!(core.is_empty(), "{codes:?}");
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A tail that the moments leave open interests fully, one of which all is known, or behind which nothing is seen,
-    /// least.
-    #[test]
-    fn what_is_open_interests() {
-        let query = |tail, lower, upper| Query::<5> {
-            front: 0.0,
-            tail,
-            fixed: [0.0, 0.0, 0.0, lower, upper],
-            described: [1.0, 0.0, 0.3, 0.0, 0.2],
-        };
-        assert!((interest(&query(20.0, 0.0, 1.0)) - 1.0).abs() < 1e-6);
-        for known in [query(20.0, 0.4, 0.4), query(20.0, 0.9, 1.0), query(0.0, 0.0, 1.0)] {
-            assert!((interest(&known) - LEAST_INTEREST).abs() < 1e-3);
-        }
-    }
 }
