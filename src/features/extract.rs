@@ -12,7 +12,6 @@ use crate::pixel::{CameraPlanes, DepthError, FragmentList, LogWarp, Pixel, ViewZ
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rand::RngExt;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A feature set together with what it must know of the camera and the scene: turns pixels into rows of features.
@@ -431,20 +430,12 @@ impl Extractor {
         let width = self.set().width();
         let fragments = (list.offsets()[range.end] - list.offsets()[range.start]) as usize;
         let (mut features, mut known) = (vec![0.0; fragments * width], vec![Known::Front(1.0); fragments]);
-        let (mut features_left, mut known_left) = (&mut features[..], &mut known[..]);
-        let mut own = |p: usize| {
-            let n = list.pixel(p).len();
-            (
-                p,
-                features_left.split_off_mut(..n * width).expect("W numbers a fragment"),
-                known_left.split_off_mut(..n).expect("one entry a fragment"),
-            )
-        };
-        let pixels: Vec<_> = range.map(&mut own).collect();
-        pixels
-            .into_par_iter()
-            .with_min_len(64)
-            .try_for_each(|(p, features, known)| self.pixel(list.pixel(p), features, known))?;
+        list.par_pixels_of_two(
+            range,
+            (&mut features, width),
+            (&mut known, 1),
+            |_, pixel, features, known| self.pixel(pixel, features, known),
+        )?;
         // Rows that the network answers close ranks in place.
         let mut kept = 0;
         for (i, known) in known.iter().enumerate() {

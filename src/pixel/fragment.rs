@@ -395,20 +395,42 @@ impl FragmentList {
         width: usize,
         f: impl Fn(usize, Pixel<'_>, &mut [T]) -> Result<(), E> + Send + Sync,
     ) -> Result<(), E> {
+        self.par_pixels_of_two(range, (out, width), (&mut [], 0), |p, pixel, out, _: &mut [()]| {
+            f(p, pixel, out)
+        })
+    }
+
+    /// [`Self::par_pixels`] with two kinds of values, so many of each a fragment.
+    ///
+    /// # Errors
+    /// The first error of `f`.
+    ///
+    /// # Panics
+    /// If there are not as many values.
+    pub fn par_pixels_of_two<T: Send, U: Send, E: Send>(
+        &self,
+        range: std::ops::Range<usize>,
+        (mut first, first_width): (&mut [T], usize),
+        (mut second, second_width): (&mut [U], usize),
+        f: impl Fn(usize, Pixel<'_>, &mut [T], &mut [U]) -> Result<(), E> + Send + Sync,
+    ) -> Result<(), E> {
         let fragments = (self.offsets[range.end] - self.offsets[range.start]) as usize;
-        assert_eq!(out.len(), fragments * width, "{width} values a fragment");
-        let mut rest = out;
-        let mut jobs = Vec::with_capacity(range.len());
-        for p in range {
-            let (own, others) = rest.split_at_mut(self.range(p).len() * width);
-            rest = others;
-            if !own.is_empty() {
-                jobs.push((p, own));
-            }
+        assert_eq!(first.len(), fragments * first_width, "{first_width} values a fragment");
+        assert_eq!(
+            second.len(),
+            fragments * second_width,
+            "{second_width} values a fragment"
+        );
+        let mut jobs = Vec::new();
+        for p in range.filter(|&p| !self.range(p).is_empty()) {
+            let n = self.range(p).len();
+            let of_first = first.split_off_mut(..n * first_width).expect("as many as asserted");
+            let of_second = second.split_off_mut(..n * second_width).expect("as many as asserted");
+            jobs.push((p, of_first, of_second));
         }
         jobs.into_par_iter()
             .with_min_len(64)
-            .try_for_each(|(p, out)| f(p, self.pixel(p), out))
+            .try_for_each(|(p, first, second)| f(p, self.pixel(p), first, second))
     }
 
     /// Pixel p holds fragments `offsets[p]..offsets[p + 1]`.
