@@ -4,9 +4,9 @@
 use super::interpret::{Interpreter, Value};
 use super::{Finding, hlsl, pruned, rows::RowKind, without_prefix};
 use crate::check::Numbers;
-use crate::export::Format;
 use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-use crate::export::core::{CoreBinding, CoreLanguage, chain_name, codes, file_name, insert, stride};
+use crate::export::core::{CoreBinding, LANGUAGES, chain_name, codes, file_name, insert, stride};
+use crate::export::{Format, Target};
 use crate::features::core::CoreSet;
 use crate::model::Mlp;
 use crate::model::simplify::without_units;
@@ -45,7 +45,7 @@ impl Subject<'_> {
         set
     }
 
-    fn file_name(self, language: CoreLanguage) -> String {
+    fn file_name(self, language: Target) -> String {
         match self {
             Self::Law(set) => file_name(set, language),
             Self::Network(_, mlp) => chain_name(mlp, language),
@@ -151,9 +151,9 @@ fn error_of(wgsl: &str, set: CoreSet, rows: &[Row]) -> Result<AbsoluteError, Str
 ///
 /// # Errors
 /// Where the chain does not stand there as it is exported.
-pub fn without_atomics(text: &str, language: CoreLanguage) -> Result<String, String> {
+pub fn without_atomics(text: &str, language: Target) -> Result<String, String> {
     let step = match language {
-        CoreLanguage::Hlsl => "uint old;\n    InterlockedMax(nmt_core[slot], code, old);\n    return min(old, code);",
+        Target::Hlsl => "uint old;\n    InterlockedMax(nmt_core[slot], code, old);\n    return min(old, code);",
         _ => "uint old = atomicMax(nmt_core[slot], code);\n    return min(old, code);",
     };
     if !text.contains(step) {
@@ -167,10 +167,10 @@ pub fn without_atomics(text: &str, language: CoreLanguage) -> Result<String, Str
 }
 
 /// The file as WGSL whose functions can be executed; none where a tool for it is missing, which is named.
-fn as_wgsl(text: &str, language: CoreLanguage, set: CoreSet) -> Result<Result<String, String>, String> {
+fn as_wgsl(text: &str, language: Target, set: CoreSet) -> Result<Result<String, String>, String> {
     match language {
-        CoreLanguage::Wgsl => Ok(Ok(text.to_owned())),
-        CoreLanguage::Glsl => {
+        Target::Wgsl => Ok(Ok(text.to_owned())),
+        Target::Glsl => {
             let shader = format!("#version 450\n{}\nvoid main() {{}}\n", without_atomics(text, language)?);
             let options = naga::front::glsl::Options::from(naga::ShaderStage::Compute);
             let shader = shader.replace("void main", "layout(local_size_x = 1) in;\nvoid main");
@@ -186,7 +186,7 @@ fn as_wgsl(text: &str, language: CoreLanguage, set: CoreSet) -> Result<Result<St
                 .map(Ok)
                 .map_err(|e| e.to_string())
         }
-        CoreLanguage::Hlsl => {
+        _ => {
             let slangc = match hlsl::slangc() {
                 Ok(slangc) => slangc,
                 Err(missing) => return Ok(Err(missing)),
@@ -204,9 +204,9 @@ fn as_wgsl(text: &str, language: CoreLanguage, set: CoreSet) -> Result<Result<St
 }
 
 /// What glslangValidator says to a fragment shader that only includes the file; none where it is not installed.
-fn glslang(text: &str, language: CoreLanguage) -> Option<Result<(), String>> {
+fn glslang(text: &str, language: Target) -> Option<Result<(), String>> {
     let (source, arguments): (_, &[&str]) = match language {
-        CoreLanguage::Hlsl => (
+        Target::Hlsl => (
             format!("{text}\nfloat4 main(float4 place : SV_Position) : SV_Target {{ return place; }}\n"),
             &["-D", "-V", "-e", "main"],
         ),
@@ -233,22 +233,22 @@ fn glslang(text: &str, language: CoreLanguage) -> Option<Result<(), String>> {
 /// Each is read; codes and insertion chain must stand there as the program writes them; the weight is executed on
 /// random pixels and held to the formulas. The control is a file with another constant, which must not pass.
 pub fn check(set: CoreSet, folder: &Path) -> Vec<Finding> {
-    files(Subject::Law(set), folder, &CoreLanguage::ALL)
+    files(Subject::Law(set), folder, &LANGUAGES)
 }
 
 /// [`check`] of the files in which a network with a core stands for both passes; none where it has none.
-pub fn check_network(mlp: &Mlp, folder: &Path, languages: &[CoreLanguage]) -> Vec<Finding> {
+pub fn check_network(mlp: &Mlp, folder: &Path, languages: &[Target]) -> Vec<Finding> {
     match mlp.feature_set().spec().core {
         Some(set) if crate::export::core::has_chain(mlp) => files(Subject::Network(set, mlp), folder, languages),
         _ => Vec::new(),
     }
 }
 
-fn files(subject: Subject<'_>, folder: &Path, languages: &[CoreLanguage]) -> Vec<Finding> {
+fn files(subject: Subject<'_>, folder: &Path, languages: &[Target]) -> Vec<Finding> {
     let set = subject.set();
     let mut findings = Vec::new();
     for &language in languages {
-        let format = language.format();
+        let format = Format::of(language);
         let path = folder.join(subject.file_name(language));
         let text = read(&path).map_err(|e| format!("{e}; 'nmt export' writes it"));
         let text = text.map(|bytes| without_prefix(format, bytes));
@@ -286,7 +286,7 @@ fn files(subject: Subject<'_>, folder: &Path, languages: &[CoreLanguage]) -> Vec
         };
         findings.push(Finding::new(format, "built in", "codes and insertion chain", result));
         findings.push(numbers(format, &text, language, subject, &rows));
-        if language != CoreLanguage::Wgsl {
+        if language != Target::Wgsl {
             let question = "is it valid";
             findings.push(match glslang(&text, language) {
                 Some(result) => Finding::new(format, "glslangValidator", question, result),
@@ -298,14 +298,10 @@ fn files(subject: Subject<'_>, folder: &Path, languages: &[CoreLanguage]) -> Vec
 }
 
 /// The weight on random pixels, and the control.
-fn numbers(format: Format, text: &str, language: CoreLanguage, subject: Subject<'_>, rows: &[Row]) -> Finding {
+fn numbers(format: Format, text: &str, language: Target, subject: Subject<'_>, rows: &[Row]) -> Finding {
     let set = subject.set();
     let question = "does it compute the formulas";
-    let tool = if language == CoreLanguage::Hlsl {
-        "slangc"
-    } else {
-        "built in"
-    };
+    let tool = if language == Target::Hlsl { "slangc" } else { "built in" };
     let measure = |text: &str| -> Result<Result<AbsoluteError, String>, String> {
         match as_wgsl(text, language, set)? {
             Ok(wgsl) => error_of(&wgsl, set, rows).map(Ok),
@@ -351,7 +347,7 @@ mod tests {
     fn files_of_networks_with_a_core_are_checked() {
         let folder = tempfile::tempdir().unwrap();
         let failed = |mlp: &Mlp| -> Vec<String> {
-            let findings = check_network(mlp, folder.path(), &CoreLanguage::ALL);
+            let findings = check_network(mlp, folder.path(), &LANGUAGES);
             assert!(findings.len() >= 3);
             let failed = findings.iter().filter(|f| matches!(f.status, Status::Failed(_)));
             failed
@@ -359,7 +355,7 @@ mod tests {
                 .collect()
         };
         let save = |mlp: &Mlp, prefix: Option<&Prefix>| {
-            for file in chain_files(mlp, &CoreLanguage::ALL, prefix).unwrap() {
+            for file in chain_files(mlp, &LANGUAGES, prefix).unwrap() {
                 std::fs::write(folder.path().join(file.path), file.text).unwrap();
             }
         };
@@ -372,7 +368,7 @@ mod tests {
         save(&core, Some(&"glass".parse().unwrap()));
         assert_eq!(failed(&core), Vec::<String>::new());
         save(&core, None);
-        let path = folder.path().join(chain_name(&core, CoreLanguage::Wgsl));
+        let path = folder.path().join(chain_name(&core, Target::Wgsl));
         let text = std::fs::read_to_string(&path).unwrap();
         let without = |from: &str, to: &str| {
             assert!(text.contains(from), "{from}");
@@ -384,7 +380,7 @@ mod tests {
         std::fs::remove_file(&path).unwrap();
         assert_eq!(failed(&core).len(), 1);
         let other = shipped::open(Path::new("recommended")).unwrap();
-        assert!(check_network(&other, folder.path(), &CoreLanguage::ALL).is_empty());
+        assert!(check_network(&other, folder.path(), &LANGUAGES).is_empty());
     }
 
     /// What is written passes; a file that lost its last function, one with a wrong constant and one that is missing do
@@ -408,7 +404,7 @@ mod tests {
                 .filter(|f| matches!(f.status, Status::Failed(_)))
                 .count()
         };
-        let path = folder.path().join(file_name(set, CoreLanguage::Wgsl));
+        let path = folder.path().join(file_name(set, Target::Wgsl));
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, text.replace("1.5976", "1.61")).unwrap();
         assert!(failed() >= 1);

@@ -3,7 +3,7 @@
 use super::calls::{channels, targets};
 use super::prefix::Prefix;
 use super::shader::{comment, include_guard, short_header};
-use super::{ExportError, Format, core, encode_as, translate};
+use super::{ExportError, Format, Target, core, encode_as, translate};
 use crate::features::core::CoreSet;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
@@ -97,19 +97,15 @@ impl Api {
         }
     }
 
-    /// APIs that passes of a core are written for: those with atomics in the fragment stage, Vulkan and Metal apart.
-    const OF_CORES: [Self; 5] = [
-        Self::WebGpu,
-        Self::OpenGl450,
-        Self::OpenGl430,
-        Self::OpenGlEs310,
-        Self::Direct3d,
-    ];
+    /// Whether passes of a core are written for it: it has atomics in the fragment stage.
+    fn has_cores(self) -> bool {
+        self != Self::OpenGlEs300
+    }
 
     /// Names and templates of its files where a core is kept; the resolve is that of all.
     fn core_templates(self) -> Vec<(&'static str, &'static str)> {
         let (names, texts) = match self {
-            Self::WebGpu => (
+            Self::WebGpu | Self::Metal => (
                 ["pass1.wgsl", "pass2.wgsl"],
                 [
                     include_str!("files/core/webgpu/pass1.wgsl"),
@@ -123,6 +119,13 @@ impl Api {
                     include_str!("files/core/direct3d/pass2.hlsl"),
                 ],
             ),
+            Self::Vulkan => (
+                ["pass1.frag", "pass2.frag"],
+                [
+                    include_str!("files/core/vulkan/pass1.frag"),
+                    include_str!("files/core/vulkan/pass2.frag"),
+                ],
+            ),
             _ => (
                 ["pass1.frag", "pass2.frag"],
                 [
@@ -133,15 +136,6 @@ impl Api {
         };
         let of_all = self.templates().into_iter().skip(2);
         names.into_iter().zip(texts).chain(of_all).collect()
-    }
-
-    /// The language that cores are written in for it.
-    fn core_language(self) -> core::CoreLanguage {
-        match self {
-            Self::WebGpu | Self::Metal => core::CoreLanguage::Wgsl,
-            Self::Direct3d => core::CoreLanguage::Hlsl,
-            _ => core::CoreLanguage::Glsl,
-        }
     }
 
     /// What its version of GLSL spells in its own way.
@@ -197,24 +191,21 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
     }
-    if !set.spec().has_blended_passes() {
-        out.extend(core::chain_files(mlp, &core::CoreLanguage::ALL, prefix)?);
-        let apis = if core::has_chain(mlp) { &Api::OF_CORES[..] } else { &[] };
-        for &api in apis {
-            for (name, template) in api.core_templates() {
-                let path = format!("{}/{name}", api.folder());
-                let text = named(pass(mlp, api, template)?);
-                out.push(ShaderFile { path, text });
-            }
-        }
-        return Ok(out);
+    out.extend(core::chain_files(mlp, &core::LANGUAGES, prefix)?);
+    let blended = set.spec().has_blended_passes();
+    if blended {
+        out.push(ShaderFile {
+            path: format!("{}.unity.hlsl", mlp.name()),
+            text: named(unity(mlp)),
+        });
     }
-    out.push(ShaderFile {
-        path: format!("{}.unity.hlsl", mlp.name()),
-        text: named(unity(mlp)),
-    });
     for api in Api::ALL {
-        for (name, template) in api.templates() {
+        let templates = match () {
+            () if blended => api.templates(),
+            () if core::has_chain(mlp) && api.has_cores() => api.core_templates(),
+            () => continue,
+        };
+        for (name, template) in templates {
             let text = named(pass(mlp, api, template)?);
             let (name, text) = match api {
                 Api::Metal => {
@@ -260,10 +251,14 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let last = targets(set);
     let mut include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
     if core::has_chain(mlp) {
-        // Direct3D 11 counts buffers that are written among the targets.
-        let binding = if api == Api::Direct3d { last as u32 } else { 0 };
+        // Direct3D 11 counts buffers that are written among the targets; Vulkan's and Metal's stand where pass 2 has them,
+        // behind its textures and its uniforms.
+        let binding = match api {
+            Api::Direct3d | Api::Vulkan | Api::Metal => last as u32,
+            _ => 0,
+        };
         let place = core::CoreBinding { group: 3, binding };
-        include += &core::calls(mlp, api.core_language(), place);
+        include += &core::calls(mlp, api.format().target(), place);
     }
     let mut text = String::new();
     for line in template.lines() {
@@ -286,7 +281,7 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
         text.push('\n');
     }
     if let Some(core) = set.spec().core {
-        text = of_core(&text, core, api.core_language());
+        text = of_core(&text, core, api.format().target());
     }
     let sums: Vec<String> = (0..last).map(|i| format!("sums.sums{i}")).collect();
     let location = |i: usize| match glsl.locations {
@@ -312,9 +307,9 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
 }
 
 /// What passes of a core are filled in with beside what all are.
-fn of_core(text: &str, set: CoreSet, language: core::CoreLanguage) -> String {
+fn of_core(text: &str, set: CoreSet, language: Target) -> String {
     const LANES: [&str; 4] = ["x", "y", "z", "w"];
-    let vector = language.dialect().type_name(Type::Vec4);
+    let vector = core::dialect(language).type_name(Type::Vec4);
     let numbers = set.moments + 2;
     let term = |number: usize| match number {
         0 => "absorbance".to_owned(),

@@ -90,6 +90,11 @@ impl Target {
         Self::Onnx,
     ];
 
+    /// The language that it is, or that it is translated from; none for what is no shader.
+    pub fn language(self) -> Option<&'static dyn ShadingLanguage> {
+        self.facts().language
+    }
+
     fn facts(self) -> Facts {
         match self {
             Self::Wgsl => facts!("wgsl", "wgsl", Some(&Wgsl), plain: true, half: true),
@@ -182,7 +187,8 @@ impl Format {
         Self::ONNX,
     ];
 
-    const fn of(target: Target) -> Self {
+    /// A target's packed form in f32.
+    pub const fn of(target: Target) -> Self {
         Self {
             target,
             form: Form::Packed,
@@ -248,7 +254,7 @@ impl Format {
 
     /// The language that it is, or that it is translated from; none for what is no shader.
     pub fn language(self) -> Option<&'static dyn ShadingLanguage> {
-        self.target.facts().language
+        self.target.language()
     }
 
     /// The same in another precision.

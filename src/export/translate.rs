@@ -62,7 +62,7 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
 }
 
 /// A pass in Metal's language, of its WGSL: the comment at its head, then what naga makes of it. Uniforms of group 0
-/// are buffer 0; textures have the index of their binding.
+/// are buffer 0; textures and storage buffers have the index of their binding.
 ///
 /// # Errors
 /// naga's words.
@@ -71,17 +71,21 @@ pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
     let mut resources = back::msl::EntryPointResources::default();
     for (_, variable) in module.global_variables.iter() {
         let Some(binding) = variable.binding else { continue };
-        let slot = binding.binding as u8;
-        let target = if variable.space == naga::AddressSpace::Uniform {
-            back::msl::BindTarget {
-                buffer: Some(slot),
+        let slot = Some(binding.binding as u8);
+        let target = match variable.space {
+            naga::AddressSpace::Uniform => back::msl::BindTarget {
+                buffer: slot,
                 ..Default::default()
-            }
-        } else {
-            back::msl::BindTarget {
-                texture: Some(slot),
+            },
+            naga::AddressSpace::Storage { access } => back::msl::BindTarget {
+                buffer: slot,
+                mutable: access.contains(naga::StorageAccess::STORE),
                 ..Default::default()
-            }
+            },
+            _ => back::msl::BindTarget {
+                texture: slot,
+                ..Default::default()
+            },
         };
         resources.resources.insert(binding, target);
     }

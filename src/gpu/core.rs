@@ -5,8 +5,9 @@ mod tests {
     use crate::check::core::without_atomics;
     use crate::check::hlsl;
     use crate::evaluate::{self, gpu::within_999};
+    use crate::export::Target;
     use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-    use crate::export::core::{CoreBinding, CoreLanguage, chain, codes, insert, known_fragments, stride, weigh};
+    use crate::export::core::{CoreBinding, chain, codes, insert, known_fragments, stride, weigh};
     use crate::features::core::CoreSet;
     use crate::features::core::code::{CodeLayout, CoreFragment, EMPTY, Slot};
     use crate::gpu::compute::wgsl_of_glsl;
@@ -250,7 +251,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         ];
         for (shape, pixels, most, range) in cases {
             let fragments = fragments(pixels, most, range, 7);
-            let source = codes(shape, CoreLanguage::Wgsl) + &insert(CoreLanguage::Wgsl, PLACE) + WGSL;
+            let source = codes(shape, Target::Wgsl) + &insert(Target::Wgsl, PLACE) + WGSL;
             let expected = expected(shape, &fragments);
             let found = run(gpu, &source, shape, &fragments).unwrap();
             assert!(
@@ -326,15 +327,15 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         fragments: &Fragments,
         offsets: &[u32],
         expected_slots: &[u32],
-        text: &dyn Fn(CoreLanguage) -> String,
+        text: &dyn Fn(Target) -> String,
         weigh: &Weigh<'_>,
     ) {
         let plain = |language| without_atomics(&text(language), language).unwrap();
-        let glsl = plain(CoreLanguage::Glsl);
+        let glsl = plain(Target::Glsl);
         let mut sources = vec![("GLSL", wgsl_of_glsl(&format!("#version 450\n{glsl}{GLSL}")).unwrap())];
         match hlsl::slangc() {
             Ok(slangc) => {
-                let hlsl = plain(CoreLanguage::Hlsl);
+                let hlsl = plain(Target::Hlsl);
                 let shader = format!("{hlsl}{}", hlsl_shader());
                 sources.push(("HLSL", hlsl::to_wgsl(&slangc, &shader, "main").unwrap()));
             }
@@ -453,7 +454,7 @@ void main() {
             "#version 430\n",
             "#version 310 es\nprecision highp float;\nprecision highp int;\n",
         ] {
-            let run = |with_codes| glslang(&format!("{version}{}{glsl}", text(CoreLanguage::Glsl, with_codes)), &[]);
+            let run = |with_codes| glslang(&format!("{version}{}{glsl}", text(Target::Glsl, with_codes)), &[]);
             let Some(taken) = run(true) else { return };
             assert!(taken && run(false) == Some(false), "{version}");
         }
@@ -467,7 +468,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
 }
 ";
         let run = |with_codes| {
-            let source = format!("{}{hlsl}", text(CoreLanguage::Hlsl, with_codes));
+            let source = format!("{}{hlsl}", text(Target::Hlsl, with_codes));
             glslang(&source, &["-D", "-V", "-e", "main"])
         };
         assert!(run(true) == Some(true) && run(false) == Some(false));
@@ -699,7 +700,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let width = 48;
         let fragments = fragments(width * width, 120, (2.5, 5.6), 9);
         let bindings = WGSL.split("\n@compute").next().unwrap();
-        let source = codes(SET, CoreLanguage::Wgsl) + &insert(CoreLanguage::Wgsl, PLACE) + bindings + RENDER;
+        let source = codes(SET, Target::Wgsl) + &insert(Target::Wgsl, PLACE) + bindings + RENDER;
         let parameters = [fragments.range.0, fragments.range.1, width as f32, 0.0];
         let core = gpu.zeros("core", 4 * (stride(SET) * fragments.pixels) as u64).unwrap();
         let buffers = [

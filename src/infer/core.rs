@@ -156,6 +156,12 @@ impl Coded {
     }
 }
 
+/// Whether some feature set that is listed has a core with so many moments.
+#[cfg(target_arch = "x86_64")]
+const fn is_usual(moments: usize) -> bool {
+    matches!(moments, 2 | 3 | 4 | 6)
+}
+
 /// What one thread works in.
 struct Workspace<'a> {
     codes: &'a Codes,
@@ -174,10 +180,27 @@ impl Workspace<'_> {
         out: &mut [f32],
         classes: &mut [Class],
     ) {
-        dispatch!(Level::new(), simd => self.both_passes::<_, N>(simd, list, pixels, out, classes));
+        self.on_lanes::<N>(list, pixels, out, classes);
         for class in classes {
             self.tally.classes[*class as usize] += 1;
         }
+    }
+
+    /// [`Self::both_passes`] on the widest vectors that there are; where no shipped set has so many moments, on those of
+    /// every x86-64, since each level of each number of moments costs half a second of every build.
+    fn on_lanes<const N: usize>(
+        &mut self,
+        list: &FragmentList,
+        pixels: Range<usize>,
+        out: &mut [f32],
+        classes: &mut [Class],
+    ) {
+        #[cfg(target_arch = "x86_64")]
+        if const { !is_usual(N - 1) } {
+            let simd = Level::baseline().as_sse2().expect("SSE2, which every x86-64 has");
+            return self.both_passes::<_, N>(simd, list, pixels, out, classes);
+        }
+        dispatch!(Level::new(), simd => self.both_passes::<_, N>(simd, list, pixels, out, classes));
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Why a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -72,32 +72,39 @@ pub fn may_write(path: &Path, replace: Replace) -> Result<(), FileError> {
 /// Files that must not outlive the process: temporary ones, and locks.
 static TRANSIENT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
+fn transient_files() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// A file that is removed at the latest when the process ends in an orderly way, [`remove_transient_files`] included.
 #[derive(Debug)]
 struct Transient(PathBuf);
 
 impl Transient {
-    fn new(path: &Path) -> Self {
-        TRANSIENT
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .insert(path.to_owned());
-        Self(path.to_owned())
+    /// What `make` makes, and that it is known; at no moment is it there and unknown.
+    fn new<T, E>(make: impl FnOnce() -> Result<(T, PathBuf), E>) -> Result<(T, Self), E> {
+        let mut known = transient_files();
+        let (made, path) = make()?;
+        known.insert(path.clone());
+        Ok((made, Self(path)))
     }
 }
 
 impl Drop for Transient {
     fn drop(&mut self) {
-        TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.0);
+        transient_files().remove(&self.0);
     }
 }
 
 /// Removes temporary files and locks; for a process that is about to end without returning to those that made them.
+/// From here on whoever would make another waits for the end.
 pub fn remove_transient_files() {
-    for path in TRANSIENT.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+    let known = transient_files();
+    for path in known.iter() {
         // Nothing can be done about one that will not go.
         drop(std::fs::remove_file(path));
     }
+    std::mem::forget(known);
 }
 
 /// The beginning of a temporary file's name.
@@ -140,6 +147,12 @@ impl Lock {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
             create_folder(folder)?;
         }
+        let (file, transient) = Transient::new(|| Ok((Self::taken(path)?, path.to_owned())))?;
+        Ok(Self { file, transient })
+    }
+
+    /// The lock file, made and locked, with the process's number in it.
+    fn taken(path: &Path) -> Result<File, FileError> {
         let cannot = "cannot make the lock file; is the folder read-only?";
         loop {
             let mut file = File::options()
@@ -175,11 +188,7 @@ impl Lock {
             let written = file
                 .set_len(0)
                 .and_then(|()| write!(file, "process {}", std::process::id()));
-            written.map_err(FileError::io(path, cannot))?;
-            return Ok(Self {
-                file,
-                transient: Transient::new(path),
-            });
+            return written.map_err(FileError::io(path, cannot)).map(|()| file);
         }
     }
 }
@@ -247,11 +256,12 @@ pub fn write_atomically(
     };
     create_folder(folder)?;
     let cannot = "cannot write; is the folder read-only or the disk full?";
-    let mut temporary = tempfile::Builder::new()
-        .prefix(TEMPORARY)
-        .tempfile_in(folder)
-        .map_err(FileError::io(path, cannot))?;
-    let _transient = Transient::new(temporary.path());
+    let (mut temporary, _transient) = Transient::new(|| {
+        let made = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder)?;
+        let path = made.path().to_owned();
+        Ok((made, path))
+    })
+    .map_err(FileError::io(path, cannot))?;
     let whole = (|| {
         let mut buffered = BufWriter::new(temporary.as_file_mut());
         write(&mut buffered)?;

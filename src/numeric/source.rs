@@ -44,6 +44,8 @@ pub enum Type {
     Truth,
     /// Four numbers x, y, z, w.
     Vec4,
+    /// Two words x, y.
+    Word2,
     /// Four words x, y, z, w.
     Word4,
     /// So many numbers, 16 at most: a number, a vector, or a matrix with a vector for every four, the last of them
@@ -89,6 +91,10 @@ fn swizzled(items: &[String]) -> Vec<String> {
 pub trait Dialect: Sync {
     /// The name of a type.
     fn type_name(&self, of: Type) -> String;
+    /// A parameter of a type, by the type's name.
+    fn parameter(&self, of: &str, name: &str) -> String {
+        format!("{of} {name}")
+    }
     /// A statement that names a value for good.
     fn let_(&self, of: Type, name: &str, value: &str) -> String;
     /// A statement that makes a variable.

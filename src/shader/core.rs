@@ -1,7 +1,8 @@
 //! Text of the passes of methods that keep a core.
 
 use super::absorbance;
-use crate::export::core::{CoreLanguage, codes, stride, weigh, weigh_by_network};
+use crate::export::Target;
+use crate::export::core::{codes, stride, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
@@ -9,8 +10,8 @@ use crate::features::core::CoreSet;
 /// none by a beta law.
 pub(super) fn module(set: CoreSet, network: &str) -> String {
     let weigh = match network {
-        "" => weigh(set, CoreLanguage::Wgsl),
-        _ => weigh_by_network(set, CoreLanguage::Wgsl),
+        "" => weigh(set, Target::Wgsl),
+        _ => weigh_by_network(set, Target::Wgsl),
     };
     let vectors = stride(set) / 4;
     let listed = |items: Vec<String>| items.join(", ");
@@ -33,7 +34,7 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
     format!(
         "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}{short}",
         set.moments + 2,
-        codes(set, CoreLanguage::Wgsl),
+        codes(set, Target::Wgsl),
         weigh,
         absorbance(),
     )

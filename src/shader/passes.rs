@@ -13,7 +13,8 @@
 //! depth buffers, a draw each.
 
 use super::MethodShader;
-use crate::export::core::{CoreBinding, CoreLanguage, insert};
+use crate::export::Target as Language;
+use crate::export::core::{CoreBinding, insert};
 use crate::export::recentred::with_rounding;
 use crate::oit::shader::Composite;
 
@@ -252,7 +253,7 @@ impl Shaders {
                 .replace("OIT_TERMS", &terms.join(", "));
             // One draw keeps the core.
             let (call, core) = match method.core {
-                Some(_) if index == 0 => (INSERT, insert(CoreLanguage::Wgsl, CORE)),
+                Some(_) if index == 0 => (INSERT, insert(Language::Wgsl, CORE)),
                 _ => ("", String::new()),
             };
             let entry = entry.replace("OIT_INSERT", call);

@@ -412,6 +412,22 @@ fn textures_of_gltf_carry_alpha() {
         alpha(&seen_with(at.path(), "a.gltf", "alpha = 0.25\n").unwrap()),
         (0.25, 72)
     );
+    // A colour of the scene file's takes the texture's place, and its alpha, which OPAQUE ignores, is named all the same;
+    // control: an alpha of the scene file's takes the place of that too.
+    let text = text.replace(r#""alphaMode":"MASK","#, "");
+    let at = folder(&[("a.gltf", text.as_bytes())]);
+    for (given, is_named) in [
+        ("", true),
+        ("color = [1, 1, 1]\n", true),
+        ("color = [1, 1, 1]\nalpha = 0.5\n", false),
+    ] {
+        let list = seen_with(at.path(), "a.gltf", given).unwrap();
+        assert_eq!(
+            said(&list, "alpha of the texture of material 'leaf'"),
+            is_named,
+            "{given}"
+        );
+    }
     // A texture that opacity hangs on and that cannot be read is refused; where only colour does, it is left out.
     let broken =
         r#","textures":[{"extensions":{"KHR_texture_basisu":{"source":0}}}],"extensionsUsed":["KHR_texture_basisu"]"#;

@@ -1,7 +1,8 @@
 //! Core and tail as a user meets it: files that are exported and checked, and the code in docs/core.md.
 
 use assert_cmd::cargo::cargo_bin_cmd;
-use nmt::export::core::{CoreLanguage, chain, named, text};
+use nmt::export::Target;
+use nmt::export::core::{chain, named, text};
 use nmt::model::shipped;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -22,8 +23,8 @@ fn wgsl(source: &str) -> Result<(), String> {
 fn the_page_compiles() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/core.md");
     let page = std::fs::read_to_string(page).unwrap();
-    let export = text(named("core:4").unwrap(), CoreLanguage::Wgsl);
-    let network = chain(&shipped::open(Path::new("core")).unwrap(), CoreLanguage::Wgsl, None).unwrap();
+    let export = text(named("core:4").unwrap(), Target::Wgsl);
+    let network = chain(&shipped::open(Path::new("core")).unwrap(), Target::Wgsl, None).unwrap();
     let blocks: Vec<&str> = page
         .split("```wgsl\n")
         .skip(1)

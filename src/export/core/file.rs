@@ -1,10 +1,10 @@
 //! Files of a core, ready to be included: with a tail that is a beta law, or with the network that shares it out.
 
-use super::{CoreBinding, CoreLanguage, MAX_SHADER_MOMENTS, codes, insert, weigh, weigh_by_network};
+use super::{CoreBinding, LANGUAGES, MAX_SHADER_MOMENTS, codes, dialect, insert, weigh, weigh_by_network};
 use crate::export::calls::write_resolve;
 use crate::export::files::ShaderFile;
 use crate::export::shader::{include_guard, source};
-use crate::export::{ExportError, Prefix};
+use crate::export::{ExportError, Format, Prefix, Target};
 use crate::features::core::CoreSet;
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
@@ -20,25 +20,17 @@ pub fn named(name: &str) -> Option<CoreSet> {
     (heavy <= crate::features::core::code::MAX_HEAVY).then(|| CoreSet::new(heavy, MOMENTS))
 }
 
-fn ending(language: CoreLanguage) -> &'static str {
-    match language {
-        CoreLanguage::Wgsl => "wgsl",
-        CoreLanguage::Glsl => "glsl",
-        CoreLanguage::Hlsl => "hlsl",
-    }
-}
-
 /// Name of a core's file in a language.
-pub fn file_name(set: CoreSet, language: CoreLanguage) -> String {
-    let ending = ending(language);
+pub fn file_name(set: CoreSet, language: Target) -> String {
+    let suffix = Format::of(language).suffix();
     match set.moments {
-        MOMENTS => format!("core-{}.{ending}", set.heavy),
-        moments => format!("core-{}-{moments}.{ending}", set.heavy),
+        MOMENTS => format!("core-{}{suffix}", set.heavy),
+        moments => format!("core-{}-{moments}{suffix}", set.heavy),
     }
 }
 
 /// The whole file in a language: how to use it, codes, insertion chain and weight.
-pub fn text(set: CoreSet, language: CoreLanguage) -> String {
+pub fn text(set: CoreSet, language: Target) -> String {
     let insert = insert(language, CoreBinding::DEFAULT);
     let (about, codes) = (about(set), codes(set, language));
     format!("{about}\n{codes}\n{insert}{}", weigh(set, language))
@@ -65,8 +57,8 @@ pub fn has_chain(mlp: &Mlp) -> bool {
 }
 
 /// Name of the file of a network with its core in a language.
-pub fn chain_name(mlp: &Mlp, language: CoreLanguage) -> String {
-    format!("{}.{CHAIN}.{}", mlp.name(), ending(language))
+pub fn chain_name(mlp: &Mlp, language: Target) -> String {
+    format!("{}.{CHAIN}{}", mlp.name(), Format::of(language).suffix())
 }
 
 /// The whole file of a network that shares out the tail of a core: how to use it, the network, codes, insertion chain
@@ -77,12 +69,12 @@ pub fn chain_name(mlp: &Mlp, language: CoreLanguage) -> String {
 ///
 /// # Panics
 /// If the network has no such core; see [`has_chain`].
-pub fn chain(mlp: &Mlp, language: CoreLanguage, prefix: Option<&Prefix>) -> Result<String, ExportError> {
+pub fn chain(mlp: &Mlp, language: Target, prefix: Option<&Prefix>) -> Result<String, ExportError> {
     let set = set_of(mlp);
-    let network = source(mlp, language.format(), None)?;
+    let network = source(mlp, Format::of(language), None)?;
     let text = network + &calls(mlp, language, CoreBinding::DEFAULT);
     let text = match language {
-        CoreLanguage::Wgsl => text,
+        Target::Wgsl => text,
         // A second inclusion is none.
         _ => {
             let guard = include_guard(&format!("{}_{CHAIN}", mlp.name()));
@@ -101,10 +93,10 @@ pub fn chain(mlp: &Mlp, language: CoreLanguage, prefix: Option<&Prefix>) -> Resu
 ///
 /// # Panics
 /// If the network has no such core; see [`has_chain`].
-pub fn calls(mlp: &Mlp, language: CoreLanguage, place: CoreBinding) -> String {
+pub fn calls(mlp: &Mlp, language: Target, place: CoreBinding) -> String {
     let set = set_of(mlp);
     let (codes, insert) = (codes(set, language), insert(language, place));
-    let resolve = Source::new(language.dialect(), "nmt");
+    let resolve = Source::new(dialect(language), "nmt");
     write_resolve(&resolve);
     let weigh = weigh_by_network(set, language);
     format!("\n{codes}\n{insert}{weigh}{}", resolve.into_text())
@@ -118,13 +110,9 @@ fn set_of(mlp: &Mlp) -> CoreSet {
 ///
 /// # Errors
 /// As [`chain`].
-pub fn chain_files(
-    mlp: &Mlp,
-    languages: &[CoreLanguage],
-    prefix: Option<&Prefix>,
-) -> Result<Vec<ShaderFile>, ExportError> {
+pub fn chain_files(mlp: &Mlp, languages: &[Target], prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, ExportError> {
     let languages = if has_chain(mlp) { languages } else { &[] };
-    let file = |&language: &CoreLanguage| {
+    let file = |&language: &Target| {
         Ok(ShaderFile {
             path: chain_name(mlp, language),
             text: chain(mlp, language, prefix)?,
@@ -138,11 +126,10 @@ pub fn chain_files(
 /// # Errors
 /// [`ExportError`] where a file is there already and may not be replaced, or cannot be written.
 pub fn write(set: CoreSet, folder: &Path, replace: Replace) -> Result<Vec<PathBuf>, ExportError> {
-    let languages = [CoreLanguage::Wgsl, CoreLanguage::Glsl, CoreLanguage::Hlsl];
-    let paths = languages.map(|language| folder.join(file_name(set, language)));
+    let paths = LANGUAGES.map(|language| folder.join(file_name(set, language)));
     paths.iter().try_for_each(|path| may_write(path, replace))?;
     create_folder(folder)?;
-    for (language, path) in languages.into_iter().zip(&paths) {
+    for (language, path) in LANGUAGES.into_iter().zip(&paths) {
         write_atomically(path, replace, |w| w.write_all(text(set, language).as_bytes()))?;
     }
     Ok(paths.to_vec())

@@ -14,33 +14,12 @@ pub mod weigh;
 pub use file::{calls, chain, chain_files, chain_name, file_name, has_chain, named, text, write};
 pub use weigh::{MAX_SHADER_MOMENTS, known_fragments, weigh, weigh_by_network};
 
-use crate::export::Format;
+use crate::export::{Format, Target};
 use crate::features::core::CoreSet;
+use crate::numeric::source::Dialect;
 
-/// A language that the core is written in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CoreLanguage {
-    /// WGSL.
-    Wgsl,
-    /// GLSL 4.30 and GLSL ES 3.10.
-    Glsl,
-    /// HLSL, shader model 5.
-    Hlsl,
-}
-
-impl CoreLanguage {
-    /// Every one.
-    pub const ALL: [Self; 3] = [Self::Wgsl, Self::Glsl, Self::Hlsl];
-
-    /// The format of a network that its core stands behind.
-    pub fn format(self) -> Format {
-        match self {
-            Self::Wgsl => Format::WGSL,
-            Self::Glsl => Format::GLSL,
-            Self::Hlsl => Format::HLSL,
-        }
-    }
-}
+/// The languages that a core is written in: WGSL, GLSL 4.30 and ES 3.10, HLSL of shader model 5.
+pub const LANGUAGES: [Target; 3] = [Target::Wgsl, Target::Glsl, Target::Hlsl];
 
 /// What the pieces of a core say in GLSL, and in HLSL.
 const HLSL_FOR_GLSL: [(&str, &str); 12] = [
@@ -68,20 +47,26 @@ const HLSL_FOR_GLSL: [(&str, &str); 12] = [
 ];
 
 /// A piece of a core: WGSL has a text of its own, HLSL is GLSL in other words.
-fn piece(language: CoreLanguage, wgsl: &str, glsl: &str) -> String {
+fn piece(language: Target, wgsl: &str, glsl: &str) -> String {
     match language {
-        CoreLanguage::Wgsl => wgsl.to_owned(),
-        CoreLanguage::Glsl => glsl.to_owned(),
-        CoreLanguage::Hlsl => HLSL_FOR_GLSL
+        Target::Wgsl => wgsl.to_owned(),
+        Target::Glsl => glsl.to_owned(),
+        Target::Hlsl => HLSL_FOR_GLSL
             .iter()
             .fold(glsl.to_owned(), |text, (glsl, hlsl)| text.replace(glsl, hlsl)),
+        _ => unreachable!("no core is written in {language:?}"),
     }
 }
 
+/// How a language spells numbers and vectors.
+pub(super) fn dialect(language: Target) -> &'static dyn Dialect {
+    language.language().expect("a shading language").dialect()
+}
+
 /// Languages among formats, in which a network's core is written beside it.
-pub fn chain_languages(formats: &[Format]) -> Vec<CoreLanguage> {
-    let wanted = |language: &CoreLanguage| formats.contains(&language.format());
-    CoreLanguage::ALL.into_iter().filter(wanted).collect()
+pub fn chain_languages(formats: &[Format]) -> Vec<Target> {
+    let wanted = |&language: &Target| formats.contains(&Format::of(language));
+    LANGUAGES.into_iter().filter(wanted).collect()
 }
 
 /// Where a shader finds the buffer of slots.
@@ -105,7 +90,7 @@ pub fn stride(set: CoreSet) -> usize {
 
 /// Codes of fragments: constants, `NmtCodes`, `nmt_core_codes`, `nmt_core_steps`, what steps stand for, and codes of
 /// every kind of slot with their inverses.
-pub fn codes(set: CoreSet, language: CoreLanguage) -> String {
+pub fn codes(set: CoreSet, language: Target) -> String {
     piece(language, include_str!("codes.wgsl"), include_str!("codes.glsl"))
         .replace("CORE_DEPTH_BITS", &set.layout.depth_bits.to_string())
         .replace("CORE_OCTAVE_BITS", &set.layout.octave_bits.to_string())
@@ -116,7 +101,7 @@ pub fn codes(set: CoreSet, language: CoreLanguage) -> String {
 }
 
 /// The insertion chain, which stands behind [`codes`]: `nmt_core_insert`, and the buffer that it fills.
-pub fn insert(language: CoreLanguage, place: CoreBinding) -> String {
+pub fn insert(language: Target, place: CoreBinding) -> String {
     piece(language, include_str!("insert.wgsl"), include_str!("insert.glsl"))
         .replace("CORE_GROUP", &place.group.to_string())
         .replace("CORE_BINDING", &place.binding.to_string())
@@ -131,7 +116,7 @@ mod tests {
 
     #[test]
     fn text_of_the_core() {
-        for language in [CoreLanguage::Wgsl, CoreLanguage::Glsl, CoreLanguage::Hlsl] {
+        for language in LANGUAGES {
             let set = CoreSet::new(4, 2);
             let text = codes(set, language) + "\n" + &insert(language, PLACE) + &weigh(set, language);
             assert!(!text.contains("CORE_"));
@@ -157,12 +142,12 @@ mod tests {
                 .map(drop)
                 .map_err(|e| e.emit_to_string(source))
         };
-        let insert = insert(CoreLanguage::Wgsl, PLACE);
+        let insert = insert(Target::Wgsl, PLACE);
         assert!(validate(&insert).is_err());
         for heavy in 0..=MAX_HEAVY {
             for moments in 1..=4 {
                 let set = CoreSet::new(heavy, moments);
-                let text = codes(set, CoreLanguage::Wgsl) + &insert + &weigh(set, CoreLanguage::Wgsl);
+                let text = codes(set, Target::Wgsl) + &insert + &weigh(set, Target::Wgsl);
                 validate(&text).unwrap();
             }
         }

@@ -3,8 +3,8 @@
 //! The formulas are those of [`crate::features::core::formulas`], written out by the expressions of [`Source`]; only
 //! the slots are unpacked by text.
 
-use super::{CoreLanguage, piece, stride};
-use crate::export::dialect::{Glsl, Hlsl, Wgsl};
+use super::{dialect, piece, stride};
+use crate::export::Target;
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
@@ -13,29 +13,10 @@ use crate::features::core::formulas::{
 };
 use crate::model::Mlp;
 use crate::numeric::real::{Constant, Real, c};
-use crate::numeric::source::{Dialect, Expression, Source, Type};
+use crate::numeric::source::{Expression, Source, Type};
 
 /// Lanes of a vector.
 const LANES: [&str; 4] = ["x", "y", "z", "w"];
-
-impl CoreLanguage {
-    /// How its numbers and vectors are spelled.
-    pub fn dialect(self) -> &'static dyn Dialect {
-        match self {
-            Self::Wgsl => &Wgsl,
-            Self::Glsl => &Glsl,
-            Self::Hlsl => &Hlsl,
-        }
-    }
-
-    /// A parameter or a value that is declared.
-    fn declared(self, name: &str, of: &str) -> String {
-        match self {
-            Self::Wgsl => format!("{name}: {of}"),
-            _ => format!("{of} {name}"),
-        }
-    }
-}
 
 /// Most moments of a core in shaders: those of a vector.
 pub const MAX_SHADER_MOMENTS: usize = 4;
@@ -61,7 +42,7 @@ enum Tail {
 ///
 /// # Panics
 /// If there are more than [`MAX_SHADER_MOMENTS`] moments.
-pub fn weigh(set: CoreSet, language: CoreLanguage) -> String {
+pub fn weigh(set: CoreSet, language: Target) -> String {
     whole(set, language, Tail::Law)
 }
 
@@ -70,11 +51,11 @@ pub fn weigh(set: CoreSet, language: CoreLanguage) -> String {
 ///
 /// # Panics
 /// If there are more than [`MAX_SHADER_MOMENTS`] moments.
-pub fn weigh_by_network(set: CoreSet, language: CoreLanguage) -> String {
+pub fn weigh_by_network(set: CoreSet, language: Target) -> String {
     whole(set, language, Tail::Network)
 }
 
-fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
+fn whole(set: CoreSet, language: Target, tail: Tail) -> String {
     assert!(set.moments <= MAX_SHADER_MOMENTS, "{set:?}");
     let law = match set.moments {
         1 => on_numbers::<2>(set, language, tail),
@@ -84,20 +65,12 @@ fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
     };
     let text = piece(language, include_str!("weigh.wgsl"), include_str!("weigh.glsl"));
     let vectors = stride(set) / 4;
-    let dialect = language.dialect();
-    let [real, vec4, word4] = [Type::Real, Type::Vec4, Type::Word4].map(|of| dialect.type_name(of));
-    let (pair, words) = match language {
-        CoreLanguage::Wgsl => ("vec2<f32>", "vec2<u32>"),
-        CoreLanguage::Glsl => ("vec2", "uvec2"),
-        CoreLanguage::Hlsl => ("float2", "uint2"),
-    };
-    let mut parameters = vec![
-        language.declared("steps", words),
-        language.declared("codes", "NmtCodes"),
-    ];
-    parameters.extend((0..vectors).map(|i| language.declared(&format!("core{i}"), &word4)));
-    parameters.extend(["n", "b0"].map(|name| language.declared(name, &real)));
-    parameters.push(language.declared("moments", &vec4));
+    let dialect = dialect(language);
+    let parameter = |of: Type, name: &str| dialect.parameter(&dialect.type_name(of), name);
+    let mut parameters = vec![parameter(Type::Word2, "steps"), dialect.parameter("NmtCodes", "codes")];
+    parameters.extend((0..vectors).map(|i| parameter(Type::Word4, &format!("core{i}"))));
+    parameters.extend(["n", "b0"].map(|name| parameter(Type::Real, name)));
+    parameters.push(parameter(Type::Vec4, "moments"));
     let unpack = (0..set.slots()).map(|place| {
         let code = format!("core{}.{}", place / 4, LANES[place % 4]);
         let steps = match place {
@@ -106,10 +79,7 @@ fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
             _ => format!("nmt_core_heavy_steps({code}, codes)"),
         };
         let value = format!("nmt_core_slot({code}, {steps})");
-        match language {
-            CoreLanguage::Wgsl => format!("    let slot{place} = {value};"),
-            _ => format!("    {pair} slot{place} = {value};"),
-        }
+        format!("    {}", dialect.let_(Type::Reals(2), &format!("slot{place}"), &value))
     });
     let gathered = |i: usize, lane: &str| {
         let item = |place: usize| match place < set.slots() {
@@ -117,7 +87,7 @@ fn whole(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
             false => "0.0".to_owned(),
         };
         let items: Vec<String> = (4 * i..4 * i + 4).map(item).collect();
-        format!("{vec4}({})", items.join(", "))
+        format!("{}({})", dialect.type_name(Type::Vec4), items.join(", "))
     };
     let mut arguments = vec![
         "nmt_core_depth(steps)".to_owned(),
@@ -269,7 +239,7 @@ pub fn weigh_by_mlp<const N: usize>(
 }
 
 /// `nmt_core_weigh`: the formulas on numbers.
-fn on_numbers<const N: usize>(set: CoreSet, language: CoreLanguage, tail: Tail) -> String {
+fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> String {
     let vectors = stride(set) / 4;
     let names: Vec<[String; 2]> = (0..vectors)
         .map(|i| [format!("depths{i}"), format!("absorbances{i}")])
@@ -277,7 +247,7 @@ fn on_numbers<const N: usize>(set: CoreSet, language: CoreLanguage, tail: Tail) 
     let mut parameters = vec![("z", Type::Real), ("absorbance", Type::Real)];
     parameters.extend(names.iter().flatten().map(|name| (&name[..], Type::Vec4)));
     parameters.extend([("n", Type::Real), ("b0", Type::Real), ("moments", Type::Vec4)]);
-    let source = Source::new(language.dialect(), "nmt_core");
+    let source = Source::new(dialect(language), "nmt_core");
     source.begin_function(
         "nmt_core_weigh",
         "Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), \

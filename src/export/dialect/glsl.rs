@@ -1,6 +1,6 @@
 //! OpenGL's and Vulkan's language.
 
-use super::{Precision, ShadingLanguage, guarded, matrix, parameters, structure};
+use super::{Precision, ShadingLanguage, guarded, list_of, matrix, structure};
 use crate::numeric::source::{Dialect, Type};
 
 /// GLSL; 4.50 and ES 3.00 read it.
@@ -14,6 +14,7 @@ impl Dialect for Glsl {
             Type::Word => "uint".to_owned(),
             Type::Truth => "bool".to_owned(),
             Type::Vec4 => "vec4".to_owned(),
+            Type::Word2 => "uvec2".to_owned(),
             Type::Word4 => "uvec4".to_owned(),
             Type::Reals(n @ 2..=4) => format!("vec{n}"),
             Type::Reals(n) => matrix("mat", n),
@@ -37,7 +38,7 @@ impl Dialect for Glsl {
     }
 
     fn head(&self, name: &str, list: &[(&str, Type)], result: &str) -> String {
-        format!("{result} {name}({})", parameters(self, list))
+        format!("{result} {name}({})", list_of(self, list))
     }
 
     fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {

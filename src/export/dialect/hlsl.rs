@@ -1,6 +1,6 @@
 //! Direct3D's language.
 
-use super::{Precision, ShadingLanguage, guarded, matrix, parameters, structure};
+use super::{Precision, ShadingLanguage, guarded, list_of, matrix, structure};
 use crate::numeric::source::{Dialect, Type};
 
 /// HLSL, shader model 5 and later. More than four numbers are the rows of a matrix, where other languages have columns:
@@ -15,6 +15,7 @@ impl Dialect for Hlsl {
             Type::Word => "uint".to_owned(),
             Type::Truth => "bool".to_owned(),
             Type::Vec4 => "float4".to_owned(),
+            Type::Word2 => "uint2".to_owned(),
             Type::Word4 => "uint4".to_owned(),
             Type::Reals(n @ 2..=4) => format!("float{n}"),
             Type::Reals(n) => matrix("float", n),
@@ -38,7 +39,7 @@ impl Dialect for Hlsl {
     }
 
     fn head(&self, name: &str, list: &[(&str, Type)], result: &str) -> String {
-        format!("{result} {name}({})", parameters(self, list))
+        format!("{result} {name}({})", list_of(self, list))
     }
 
     fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {

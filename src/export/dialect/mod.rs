@@ -54,11 +54,11 @@ fn matrix(name: &str, numbers: usize) -> String {
     format!("{name}{}x4", numbers.div_ceil(4))
 }
 
-/// `type name` of every parameter, as languages have it that put the type first.
-fn parameters(language: &dyn Dialect, parameters: &[(&str, Type)]) -> String {
+/// Every parameter of a function.
+fn list_of(language: &dyn Dialect, parameters: &[(&str, Type)]) -> String {
     let list: Vec<String> = parameters
         .iter()
-        .map(|&(name, of)| format!("{} {name}", language.type_name(of)))
+        .map(|&(name, of)| language.parameter(&language.type_name(of), name))
         .collect();
     list.join(", ")
 }

@@ -1,6 +1,6 @@
 //! WebGPU's language.
 
-use super::{Precision, ShadingLanguage, matrix};
+use super::{Precision, ShadingLanguage, list_of, matrix};
 use crate::numeric::source::{Dialect, Type};
 
 /// WGSL.
@@ -14,10 +14,15 @@ impl Dialect for Wgsl {
             Type::Word => "u32".to_owned(),
             Type::Truth => "bool".to_owned(),
             Type::Vec4 => "vec4<f32>".to_owned(),
+            Type::Word2 => "vec2<u32>".to_owned(),
             Type::Word4 => "vec4<u32>".to_owned(),
             Type::Reals(n @ 2..=4) => format!("vec{n}<f32>"),
             Type::Reals(n) => matrix("mat", n) + "<f32>",
         }
+    }
+
+    fn parameter(&self, of: &str, name: &str) -> String {
+        format!("{name}: {of}")
     }
 
     fn let_(&self, _: Type, name: &str, value: &str) -> String {
@@ -43,10 +48,7 @@ impl Dialect for Wgsl {
     }
 
     fn head(&self, name: &str, parameters: &[(&str, Type)], result: &str) -> String {
-        let list = parameters
-            .iter()
-            .map(|&(name, of)| format!("{name}: {}", self.type_name(of)));
-        format!("fn {name}({}) -> {result}", list.collect::<Vec<_>>().join(", "))
+        format!("fn {name}({}) -> {result}", list_of(self, parameters))
     }
 
     fn structure(&self, name: &str, fields: &[(String, &str, Type)]) -> String {

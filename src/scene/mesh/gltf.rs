@@ -649,8 +649,7 @@ impl File<'_> {
             cutoff,
             ..TexturedMaterial::default()
         };
-        let matters = !color_given || (!alpha_given && mode != AlphaMode::Opaque);
-        if let Some(info) = texture.filter(|_| matters) {
+        if let Some(info) = texture.filter(|_| !color_given || !alpha_given) {
             match self.texture(&info, vertices, place, primitive) {
                 Ok((found, coordinates)) => {
                     if ignored && found.image.has_alpha() {
@@ -664,7 +663,12 @@ impl File<'_> {
                 }
                 // Where opacity does not hang on it, a surface is drawn without it.
                 Err(error) if mode == AlphaMode::Opaque || alpha_given => {
-                    let remedy = format!("its colour is its factor alone ({error})");
+                    let colour = if color_given {
+                        "the scene file's"
+                    } else {
+                        "its factor alone"
+                    };
+                    let remedy = format!("its colour is {colour} ({error})");
                     self.leave_out(format!("the texture of material '{shown}'"), 1, &remedy);
                 }
                 Err(error) => return Err(error),
