@@ -244,7 +244,7 @@ pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace
 /// A pass of an API by its template.
 ///
 /// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of
-/// such depth, `%es` where GLSL has precisions, `%sums` once a target of sums; `%include NAME ...` are functions with
+/// such depth, `%es` where GLSL has precisions, `%webgpu` and `%metal` for these two, `%sums` once a target of sums; `%include NAME ...` are functions with
 /// all that they use.
 fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let (set, glsl) = (mlp.feature_set(), api.glsl());
@@ -276,6 +276,8 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
             "log" if set.moment_depth() == MomentDepthKind::Log => text += rest,
             "window" if set.moment_depth() == MomentDepthKind::Window => text += rest,
             "es" if glsl.es => text += rest,
+            "webgpu" if api == Api::WebGpu => text += rest,
+            "metal" if api == Api::Metal => text += rest,
             _ => continue,
         }
         text.push('\n');

@@ -68,7 +68,11 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
 /// naga's words.
 pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
     let (module, _) = parse_wgsl(wgsl)?;
-    let mut resources = back::msl::EntryPointResources::default();
+    let mut resources = back::msl::EntryPointResources {
+        // Taken out again below.
+        sizes_buffer: Some(30),
+        ..Default::default()
+    };
     for (_, variable) in module.global_variables.iter() {
         let Some(binding) = variable.binding else { continue };
         let slot = Some(binding.binding as u8);
@@ -97,11 +101,39 @@ pub(super) fn metal_pass(wgsl: &str) -> Result<String, String> {
     let options = back::msl::Options {
         per_entry_point_map,
         fake_missing_bindings: false,
+        // Those that are here end.
+        force_loop_bounding: false,
         ..Default::default()
     };
     let head: Vec<&str> = wgsl.lines().take_while(|line| line.starts_with("//")).collect();
     let head = head.join("\n").replace("// WebGPU, ", "// Metal, by naga from WGSL, ");
-    Ok(format!("{head}\n\n{}", msl(wgsl, &options)?))
+    let text = without_sizes(&msl(wgsl, &options)?)?;
+    // Atomics write even where a depth test behind the shader fails.
+    let text = match text.contains("atomic_fetch_max_explicit") {
+        true => text.replace("\nfragment ", "\n[[early_fragment_tests]]\nfragment "),
+        false => text,
+    };
+    Ok(format!("{head}\n\n{text}"))
+}
+
+/// Metal's text without the sizes of buffers, which naga hands from function to function and nothing asks for.
+fn without_sizes(text: &str) -> Result<String, String> {
+    const SIZES: &str = "_mslBufferSizes";
+    let Some((before, rest)) = text.split_once(&format!("struct {SIZES} {{")) else {
+        return Ok(text.to_owned());
+    };
+    let (_, rest) = rest.split_once("};\n\n").ok_or("the end of a struct is not where it was")?;
+    let rest = rest
+        .lines()
+        .filter(|line| !line.contains(&format!("constant {SIZES}& _buffer_sizes")))
+        .collect::<Vec<_>>()
+        .join("\n")
+        .replace(", _buffer_sizes)", ")")
+        .replace(",\n)", "\n)");
+    match rest.contains("_buffer_sizes") {
+        true => Err("the size of a buffer is asked for".to_owned()),
+        false => Ok(format!("{before}{rest}\n")),
+    }
 }
 
 /// What naga makes of WGSL. It puts an underscore behind names that end in a digit; that goes where it is not needed.
@@ -112,8 +144,12 @@ fn msl(wgsl: &str, options: &back::msl::Options) -> Result<String, String> {
         lang_version: (2, 1),
         ..options.clone()
     };
-    let (text, _) =
+    let (text, translation) =
         back::msl::write_string(&module, &info, &options, &Default::default()).map_err(|e| e.to_string())?;
+    // naga leaves out an entry point that it cannot bind.
+    for name in translation.entry_point_names {
+        name.map_err(|e| e.to_string())?;
+    }
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let words: std::collections::HashSet<&str> = text.split(|c: char| !is_word(c)).collect();
     let mut out = String::with_capacity(text.len());

@@ -1,7 +1,7 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
-// of pass 1; behind them the buffer of pass 1, as vectors.
+// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0.
+// Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as vectors.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.

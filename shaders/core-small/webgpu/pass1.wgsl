@@ -1,6 +1,7 @@
-// WebGPU, pass 1: draw every transparent surface, in any order, without writing depth. The fragment shader writes to a
-// storage buffer even where a depth test fails behind it: discard what lies behind the opaque depth, read as a texture,
-// before nmt_core_insert.
+// WebGPU, pass 1: draw every transparent surface, in any order, without writing depth.
+//
+// The fragment shader writes to a storage buffer even where a depth test fails behind it: discard what lies behind the
+// opaque depth, read as a texture, before nmt_core_insert.
 //
 // Target 0: rgba32float, blend add, factors one and one, cleared to 0.
 // Target 1: rg32float, blend add, factors one and one, cleared to 0.

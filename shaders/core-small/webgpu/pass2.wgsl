@@ -1,7 +1,7 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
-// of pass 1; behind them the buffer of pass 1, as vectors.
+// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0.
+// Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as vectors.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.

@@ -1,7 +1,7 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
-// of pass 1; behind them the buffer of pass 1, as vectors.
+// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0.
+// Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as vectors.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.

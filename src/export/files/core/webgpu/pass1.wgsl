@@ -1,9 +1,11 @@
-// WebGPU, pass 1: draw every transparent surface, in any order, without writing depth. The fragment shader writes to a
-// storage buffer even where a depth test fails behind it: discard what lies behind the opaque depth, read as a texture,
-// before nmt_core_insert.
+// WebGPU, pass 1: draw every transparent surface, in any order, without writing depth.
 //
+%webgpu // The fragment shader writes to a storage buffer even where a depth test fails behind it: discard what lies behind the
+%webgpu // opaque depth, read as a texture, before nmt_core_insert.
+%webgpu //
 %sums // Target {i}: {format{i}}, blend add, factors one and one, cleared to 0.
-// Buffer of group 3: {words} words a pixel, cleared to 0.
+%webgpu // Buffer of group 3: {words} words a pixel, cleared to 0.
+%metal // Buffer {range}: {words} words a pixel, cleared to 0. Buffer 0: the uniforms.
 //
 %include nmt_core_insert nmt_core_codes nmt_core_steps nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
 

@@ -1,7 +1,8 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
-// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0. Textures of group 1: the targets
-// of pass 1; behind them the buffer of pass 1, as vectors.
+// Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0.
+%webgpu // Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as vectors.
+%metal // Textures: the targets of pass 1. Buffer {range}: that of pass 1. Buffer 0: the uniforms.
 //
 %include nmt_core_transmittance nmt_core_codes nmt_core_steps nmt_core_absorbance_of
 
