@@ -122,7 +122,9 @@ fn without_sizes(text: &str) -> Result<String, String> {
     let Some((before, rest)) = text.split_once(&format!("struct {SIZES} {{")) else {
         return Ok(text.to_owned());
     };
-    let (_, rest) = rest.split_once("};\n\n").ok_or("the end of a struct is not where it was")?;
+    let (_, rest) = rest
+        .split_once("};\n\n")
+        .ok_or("the end of a struct is not where it was")?;
     let rest = rest
         .lines()
         .filter(|line| !line.contains(&format!("constant {SIZES}& _buffer_sizes")))
