@@ -4,10 +4,10 @@ import type { PassNode, PassNodeOptions, WebGPURenderer } from "three/webgpu";
 /** Options of {@link nmtPass}; those of a three.js pass, without `samples`: sums cannot be multisampled. */
 export interface NMTPassOptions extends Omit<PassNodeOptions, "samples"> {
   /**
-   * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four
+   * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four or six
    * moments. Default: `"recommended"`.
    */
-  network?: "recommended" | "small" | { wgsl: string };
+  network?: "recommended" | "small" | "moments-6" | { wgsl: string };
   /**
    * Least and greatest distance along the view direction of anything transparent, in scene units. By default it is
    * found every frame from the bounding spheres of transparent objects. Any range that holds all is right, a tight one

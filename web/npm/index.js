@@ -4,6 +4,7 @@
 // moments per pixel, once to add up colour by how much light passes in front of each fragment, which a network answers.
 
 import {
+  AddEquation,
   BlendMode,
   Color,
   CustomBlending,
@@ -15,6 +16,7 @@ import {
   NormalBlending,
   OneFactor,
   PassNode,
+  RGBAFormat,
   RGFormat,
   RenderTarget,
   RendererUtils,
@@ -27,6 +29,7 @@ import {
   mrt,
   output,
   positionView,
+  renderGroup,
   screenCoordinate,
   textureLoad,
   uniform,
@@ -34,7 +37,9 @@ import {
   wgsl,
   wgslFn,
 } from "three/tsl";
-import * as networks from "./networks.js";
+import { moments6, recommended, small } from "./networks.js";
+
+const NETWORKS = { recommended, small, "moments-6": moments6 };
 
 const size = new Vector2();
 const sphere = new Sphere();
@@ -68,21 +73,34 @@ const isDrawnHere = (material) =>
 
 /** A network's WGSL. */
 function sourceOf(network) {
-  const source = typeof network === "string" ? networks[network] : network?.wgsl;
+  const source = typeof network === "string" ? NETWORKS[network] : network?.wgsl;
   if (typeof source !== "string") {
-    const names = Object.keys(networks).join(", ");
+    const names = Object.keys(NETWORKS).join(", ");
     throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
   }
-  // More moments than four do not fit the 32 bytes that every device writes at once.
-  const needs = ["fn nmt_moments(z: f32, absorbance: f32) -> vec4<f32>", "fn nmt_pass2(v: f32,", "fn nmt_resolve("];
+  const needs = [
+    "fn nmt_moments(z: f32, absorbance: f32)",
+    "fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>)",
+    "fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>)",
+  ];
   const missing = needs.find((head) => !source.includes(head));
   if (missing !== undefined) {
     throw new Error(
-      `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four moments ` +
-        "(feature set 'recentred'), without a prefix.",
+      `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four or six moments ` +
+        "(feature set 'recentred' or 'recentred-6'), without a prefix.",
     );
   }
   return source;
+}
+
+/** The targets of pass 1, those of each draw: one draw where the device writes all of them at once. */
+function drawsOf(source, device) {
+  const [sums0, range] = [{ name: "sums0", format: RGBAFormat }, { name: "range", format: RGFormat }];
+  const six = source.includes("fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32>");
+  const sums1 = { name: "sums1", format: six ? RGBAFormat : RGFormat };
+  // Six moments take 40 bytes a pixel, four 32, which every device writes.
+  const twice = six && device.limits.maxColorAttachmentBytesPerSample < 40;
+  return twice ? [[sums0, range], [sums1]] : [[sums0, sums1, range]];
 }
 
 // TSL knows vectors, and no structures: a call for each target of pass 1.
@@ -106,18 +124,20 @@ fn nmt_three_resolve( background: vec4<f32>, weighted: vec4<f32>, sums0: vec4<f3
     return vec4<f32>( over.rgb + over.a * background.rgb, 1.0 - over.a * ( 1.0 - background.a ) );
 }`;
 
-function added(equation) {
+function added(equation = AddEquation) {
   const mode = new BlendMode(CustomBlending);
   mode.blendSrc = OneFactor;
   mode.blendDst = OneFactor;
-  if (equation !== undefined) mode.blendEquation = equation;
+  mode.blendEquation = equation;
   return mode;
 }
 
-/** A target that shaders read texel by texel. */
-function plain(texture, name, type, format) {
-  Object.assign(texture, { name, type, minFilter: NearestFilter, magFilter: NearestFilter, colorSpace: NoColorSpace });
-  if (format !== undefined) texture.format = format;
+/** Targets that shaders read texel by texel. They keep the depth that transparent objects are tested against. */
+function targetsWith(depthTexture, type, textures) {
+  const target = new RenderTarget(1, 1, { count: textures.length, depthTexture });
+  const common = { type, minFilter: NearestFilter, magFilter: NearestFilter, colorSpace: NoColorSpace };
+  target.textures.forEach((texture, i) => Object.assign(texture, common, textures[i]));
+  return target;
 }
 
 export class NMTPassNode extends PassNode {
@@ -129,21 +149,15 @@ export class NMTPassNode extends PassNode {
     super(PassNode.COLOR, scene, camera, { ...options, samples: 0 });
     this.isNMTPassNode = true;
     this.range = range;
-    const source = sourceOf(network);
-    this._source = wgsl(source);
-    this._range = uniform(new Vector2(1, 2));
+    this._source = wgsl(sourceOf(network));
+    // In the group of the frame: what is an object's own is not updated while it stands still.
+    this._range = uniform(new Vector2(1, 2)).setGroup(renderGroup);
 
-    // Both keep the depth of the opaque objects, which transparent ones are tested against.
-    this._sums = new RenderTarget(1, 1, { count: 3 });
-    this._sums.depthTexture = this.renderTarget.depthTexture;
-    plain(this._sums.textures[0], "sums0", FloatType);
-    plain(this._sums.textures[1], "sums1", FloatType, RGFormat);
-    plain(this._sums.textures[2], "range", FloatType, RGFormat);
-    this._weighted = new RenderTarget(1, 1, { count: 1 });
-    this._weighted.depthTexture = this.renderTarget.depthTexture;
-    plain(this._weighted.textures[0], "weighted", HalfFloatType);
+    // Targets of pass 1, a set for each draw, are made when the device is known.
+    this._sums = [];
+    this._weighted = targetsWith(this.renderTarget.depthTexture, HalfFloatType, [{ name: "weighted" }]);
 
-    // Whether both have not been drawn into since they got their size.
+    // Whether none has been drawn into since it got its size.
     this._isNew = true;
     this._renderer = null;
     this._outputs = null;
@@ -160,25 +174,38 @@ export class NMTPassNode extends PassNode {
     this._drawTransparent = draws(true);
   }
 
-  /** What both passes write. */
-  get _passes() {
+  /** What draws have left in this pixel of a target. */
+  _read(name) {
+    const textures = [...this._sums, this._weighted].flatMap((target) => target.textures);
+    return textureLoad(
+      textures.find((texture) => texture.name === name),
+      ivec2(screenCoordinate.xy),
+    );
+  }
+
+  /** Each draw of transparent objects: where it goes, and what it writes. */
+  get _draws() {
     if (this._outputs === null) {
       const v = positionView.z.negate();
       const alpha = output.a.clamp(0, 1);
       const given = { v, alpha, range: this._range };
       const includes = [this._source];
-      const call = (field) => wgslFn(pass1(field), includes)(given);
-      const sums = mrt({ sums0: call("sums0"), sums1: call("sums1"), range: call("range") });
-      sums.setBlendMode("sums0", added()).setBlendMode("sums1", added()).setBlendMode("range", added(MaxEquation));
-      sums.setClearColor("sums0", new Color(0, 0, 0), 0).setClearColor("sums1", new Color(0, 0, 0), 0);
-      sums.setClearColor("range", new Color(NOTHING, NOTHING, 0), 0);
-      const at = ivec2(screenCoordinate.xy);
-      const [sums0, sums1, ends] = this._sums.textures.map((t) => textureLoad(t, at));
+      const sums = this._sums.map((target) => {
+        const names = target.textures.map((texture) => texture.name);
+        const outputs = mrt(Object.fromEntries(names.map((name) => [name, wgslFn(pass1(name), includes)(given)])));
+        for (const name of names) {
+          const ends = name === "range";
+          outputs.setBlendMode(name, added(ends ? MaxEquation : AddEquation));
+          outputs.setClearColor(name, ends ? new Color(NOTHING, NOTHING, 0) : new Color(0, 0, 0), 0);
+        }
+        return { target, outputs };
+      });
+      const [sums0, sums1, ends] = ["sums0", "sums1", "range"].map((name) => this._read(name));
       const T = wgslFn(PASS2, includes)({ v0: v, alpha, range: this._range, sums0, sums1, ends });
       const share = alpha.mul(T);
       const weighted = mrt({ weighted: vec4(output.rgb.mul(share), share) });
       weighted.setBlendMode("weighted", added()).setClearColor("weighted", new Color(0, 0, 0), 0);
-      this._outputs = { sums, weighted };
+      this._outputs = [...sums, { target: this._weighted, outputs: weighted }];
     }
     return this._outputs;
   }
@@ -186,19 +213,20 @@ export class NMTPassNode extends PassNode {
   setSize(width, height) {
     super.setSize(width, height);
     const { width: w, height: h } = this.renderTarget;
-    this._isNew ||= this._sums.width !== w || this._sums.height !== h;
-    this._sums.setSize(w, h);
-    this._weighted.setSize(w, h);
+    this._isNew ||= this._weighted.width !== w || this._weighted.height !== h;
+    for (const target of [...this._sums, this._weighted]) target.setSize(w, h);
   }
 
   setup(builder) {
     const why = whyUnsupported(builder.renderer);
     if (why !== null) throw new Error(why);
-    const opaque = super.setup(builder);
-    const at = ivec2(screenCoordinate.xy);
-    const weighted = textureLoad(this._weighted.textures[0], at);
-    const sums0 = textureLoad(this._sums.textures[0], at);
-    return wgslFn(RESOLVE, [this._source])({ background: opaque, weighted, sums0 });
+    const background = super.setup(builder);
+    if (this._sums.length === 0) {
+      const draws = drawsOf(this._source.code, builder.renderer.backend.device);
+      this._sums = draws.map((textures) => targetsWith(this.renderTarget.depthTexture, FloatType, textures));
+    }
+    const [weighted, sums0] = [this._read("weighted"), this._read("sums0")];
+    return wgslFn(RESOLVE, [this._source])({ background, weighted, sums0 });
   }
 
   /** View depths that hold every transparent object. */
@@ -245,7 +273,7 @@ export class NMTPassNode extends PassNode {
     // The renderer clears the depth of a target that it has not seen, which would be that of the opaque objects.
     if (this._isNew) {
       renderer.setMRT(null);
-      for (const target of [this._sums, this._weighted]) {
+      for (const { target } of this._draws) {
         renderer.setRenderTarget(target);
         renderer.render(nothing, camera);
       }
@@ -266,10 +294,7 @@ export class NMTPassNode extends PassNode {
     renderer.opaque = false;
     renderer.transparent = true;
     renderer.setRenderObjectFunction(this._drawTransparent);
-    for (const [target, outputs] of [
-      [this._sums, this._passes.sums],
-      [this._weighted, this._passes.weighted],
-    ]) {
+    for (const { target, outputs } of this._draws) {
       renderer.setRenderTarget(target);
       renderer.setMRT(outputs);
       renderer.render(scene, camera);
@@ -282,8 +307,7 @@ export class NMTPassNode extends PassNode {
 
   dispose() {
     super.dispose();
-    this._sums.dispose();
-    this._weighted.dispose();
+    for (const target of [...this._sums, this._weighted]) target.dispose();
   }
 }
 

@@ -80,6 +80,7 @@ for (const [title, dense, layers, factor] of [
           oit: oitPass(scene, camera),
           small: nmtPass(scene, camera, { network: "small" }),
           recommended: nmtPass(scene, camera),
+          "moments-6": nmtPass(scene, camera, { network: "moments-6" }),
         }))
           images[name] = await frame(renderer, node, width, height, 2);
         const reference = await peel(renderer, scene, camera, width, height, 64);
@@ -116,16 +117,41 @@ for (const [title, dense, layers, factor] of [
     const readme = fs.readFileSync(path.join(WEB, "npm", "README.md"), "utf8");
     const row = readme.split("\n").find((line) => line.startsWith(`| ${dense ? "thirty balls" : "its own example"}`));
     const printed = row.split("|").slice(2, -1).map(Number);
-    ["sorted", "oit", "small", "recommended"].forEach((name, i) => {
+    assert.equal(printed.length, Object.keys(errors).length);
+    Object.keys(errors).forEach((name, i) => {
       const ratio = errors[name] / printed[i];
       assert.ok(ratio > 0.5 && ratio < 2, `${name}: ${errors[name]}, the README says ${printed[i]}`);
     });
-    for (const name of ["small", "recommended"]) {
+    for (const name of Object.keys(errors).slice(2)) {
       assert.ok(errors[name] < errors.oit / factor && errors[name] < errors.sorted / 2, JSON.stringify(errors));
     }
     await page.close();
   });
 }
+
+test("six moments: pass 1 is one draw where the device writes 40 bytes a pixel, else two, of the same bits", async () => {
+  const page = await visit();
+  const found = await page.evaluate(async (mseText) => {
+    const mse = eval(mseText);
+    const camera = makeCamera(64 / 48);
+    const draw = async (network, requiredLimits) => {
+      const renderer = await open(64, 48, { requiredLimits });
+      renderer.info.autoReset = false;
+      const image = await frame(renderer, nmtPass(makeDenseScene().scene, camera, { network }), 64, 48);
+      return { image, calls: renderer.info.render.drawCalls };
+    };
+    const once = await draw("moments-6", { maxColorAttachmentBytesPerSample: 40 });
+    const [twice, four] = [await draw("moments-6"), await draw("recommended")];
+    const calls = [once, twice, four].map((drawn) => drawn.calls);
+    return { calls, six: mse(once.image, twice.image), four: mse(once.image, four.image) };
+  }, MSE);
+  assert.deepEqual(page.errors, []);
+  // Thirty balls, both sides: 60 calls a draw of transparent objects, and the last that fills the screen.
+  assert.deepEqual(found.calls, [121, 181, 121]);
+  // Control: four moments give another image.
+  assert.ok(found.six === 0 && found.four > 1e-8, JSON.stringify(found));
+  await page.close();
+});
 
 test("one layer, one colour, opaque depth, resizing, a transparent background, disposal", async () => {
   const page = await visit();
@@ -172,6 +198,14 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
     const resized = await frame(renderer, node, 64, 48);
     out.resized = mse(resized, await frame(renderer, nmtPass(scene, camera), 64, 48));
     out.size = [resized.length];
+    // What moves changes the range of depth for what stands still too.
+    const balls = makeDenseScene().scene;
+    const moved = nmtPass(balls, camera);
+    await frame(renderer, moved, 64, 48);
+    balls.children.at(-1).position.set(-20, -10, -25);
+    const later = await frame(renderer, moved, 64, 48);
+    out.moved = mse(later, await frame(renderer, nmtPass(balls, camera), 64, 48));
+    out.shift = mse(later, await frame(renderer, nmtPass(balls, camera, { range: [1, 20] }), 64, 48));
     // Disposal gives back what was made.
     const textures = () => renderer.info.memory.textures;
     const before = textures();
@@ -202,6 +236,8 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
   near(found.hidden, [1, 0.7, 0.7, 1], "before a wall");
   near(found.clear, [0.3, 0, 0, 0.3], "before nothing, premultiplied");
   assert.ok(found.resized < 1e-9 && found.size[0] === 4 * 64 * 48, `resized: ${found.resized}`);
+  // Control: another range gives another image.
+  assert.ok(found.moved === 0 && found.shift > 1e-8, `moved: ${found.moved}, another range: ${found.shift}`);
   assert.ok(found.held > 0 && found.left < found.held, `${found.left} of ${found.held} textures are left`);
   assert.match(found.unknown, /no network "none"/);
   assert.match(found.webgl, /needs WebGPU/);
