@@ -8,10 +8,17 @@ const from = here("../../shaders/");
 fs.rmSync(here("shaders"), { recursive: true, force: true });
 fs.cpSync(from, here("shaders"), { recursive: true });
 
-const networks = ["recommended", "small"];
-const lines = networks.map((name) => {
-  const source = fs.readFileSync(`${from}${name}/${name}.wgsl`, "utf8");
-  return `/** WGSL of the network '${name}'. */\nexport const ${name} = ${JSON.stringify(source)};\n`;
+const networks = {
+  recommended: "recommended/recommended.wgsl",
+  small: "small/small.wgsl",
+  moments6: "moments-6/moments-6.wgsl",
+  coreSmall: "core-small/core-small.chain.wgsl",
+  core: "core/core.chain.wgsl",
+  coreLarge: "core-large/core-large.chain.wgsl",
+};
+const lines = Object.entries(networks).map(([variable, file]) => {
+  const source = fs.readFileSync(from + file, "utf8");
+  return `/** shaders/${file} */\nexport const ${variable} = ${JSON.stringify(source)};\n`;
 });
 fs.writeFileSync(here("networks.js"), `// Made by build.mjs of the files in shaders/.\n\n${lines.join("\n")}`);
 for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) fs.copyFileSync(here(`../../${name}`), here(name));

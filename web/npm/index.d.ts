@@ -1,13 +1,16 @@
 import type { Camera, Scene } from "three";
 import type { PassNode, PassNodeOptions, WebGPURenderer } from "three/webgpu";
 
-/** Options of {@link nmtPass}; those of a three.js pass, without `samples`: sums cannot be multisampled. */
-export interface NMTPassOptions extends Omit<PassNodeOptions, "samples"> {
+/**
+ * Options of {@link nmtPass}; those of a three.js pass, without `samples`, since sums cannot be multisampled, and
+ * `depthBuffer`, since transparent objects are tested against opaque ones.
+ */
+export interface NMTPassOptions extends Omit<PassNodeOptions, "samples" | "depthBuffer"> {
   /**
-   * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four
-   * moments. Default: `"recommended"`.
+   * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four or six
+   * moments, or `MODEL.chain.wgsl`, which it writes of one with a core. Default: `"recommended"`.
    */
-  network?: "recommended" | "small" | { wgsl: string };
+  network?: "recommended" | "small" | "moments-6" | "core-small" | "core" | "core-large" | { wgsl: string };
   /**
    * Least and greatest distance along the view direction of anything transparent, in scene units. By default it is
    * found every frame from the bounding spheres of transparent objects. Any range that holds all is right, a tight one

@@ -4,37 +4,58 @@
 // moments per pixel, once to add up colour by how much light passes in front of each fragment, which a network answers.
 
 import {
+  AddEquation,
   BlendMode,
   Color,
   CustomBlending,
+  DepthTexture,
   FloatType,
   HalfFloatType,
+  LessEqualDepth,
   MaxEquation,
   NearestFilter,
   NoColorSpace,
   NormalBlending,
   OneFactor,
   PassNode,
+  RGBAFormat,
   RGFormat,
   RenderTarget,
   RendererUtils,
   Scene,
   Sphere,
+  StorageBufferAttribute,
   Vector2,
 } from "three/webgpu";
 import {
-  ivec2,
+  Fn,
+  bool,
+  expression,
+  instanceIndex,
   mrt,
   output,
   positionView,
+  renderGroup,
   screenCoordinate,
+  storage,
   textureLoad,
   uniform,
+  uvec2,
+  uvec4,
   vec4,
   wgsl,
   wgslFn,
 } from "three/tsl";
-import * as networks from "./networks.js";
+import { core, coreLarge, coreSmall, moments6, recommended, small } from "./networks.js";
+
+const NETWORKS = {
+  recommended,
+  small,
+  "moments-6": moments6,
+  "core-small": coreSmall,
+  core,
+  "core-large": coreLarge,
+};
 
 const size = new Vector2();
 const sphere = new Sphere();
@@ -66,20 +87,31 @@ const isDrawnHere = (material) =>
   material.transmissionNode?.isNode !== true &&
   material.backdropNode?.isNode !== true;
 
+const hasCore = (source) => source.includes("fn nmt_core_insert(");
+
 /** A network's WGSL. */
 function sourceOf(network) {
-  const source = typeof network === "string" ? networks[network] : network?.wgsl;
+  const source = typeof network === "string" ? NETWORKS[network] : network?.wgsl;
   if (typeof source !== "string") {
-    const names = Object.keys(networks).join(", ");
+    const names = Object.keys(NETWORKS).join(", ");
     throw new Error(`nmtPass: there is no network "${network}"; there are ${names}, or { wgsl } of an export.`);
   }
-  // More moments than four do not fit the 32 bytes that every device writes at once.
-  const needs = ["fn nmt_moments(z: f32, absorbance: f32) -> vec4<f32>", "fn nmt_pass2(v: f32,", "fn nmt_resolve("];
+  const needs = hasCore(source)
+    ? [
+        "var<storage, read_write> nmt_core: array<atomic<u32>>;",
+        "fn nmt_core_moments(steps: vec2<u32>) -> vec4<f32>",
+        "fn nmt_core_transmittance(",
+      ]
+    : [
+        "fn nmt_moments(z: f32, absorbance: f32)",
+        "fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>)",
+      ];
+  needs.push("fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>)");
   const missing = needs.find((head) => !source.includes(head));
   if (missing !== undefined) {
     throw new Error(
-      `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four moments ` +
-        "(feature set 'recentred'), without a prefix.",
+      `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four or six moments (feature set ` +
+        "'recentred' or 'recentred-6') or the chain of one with a core, without a prefix.",
     );
   }
   return source;
@@ -93,12 +125,47 @@ fn nmt_three_${field}( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {
 // Both passes are compiled apart, so that v may differ in its last bits: what is next to an end is the end.
 const PASS2 = `
 fn nmt_three_transmittance(
-    v0: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>, ends: vec4<f32>
+    v: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>, ends: vec4<f32>
 ) -> f32 {
-    var v = clamp( v0, -ends.x, ends.y );
-    if ( ends.y - v < 1e-6 * v ) { v = ends.y; }
-    if ( v + ends.x < 1e-6 * v ) { v = -ends.x; }
-    return nmt_pass2( v, range.x, range.y, alpha, sums0, sums1, ends );
+    var at = clamp( v, -ends.x, ends.y );
+    if ( ends.y - at < 1e-6 * at ) { at = ends.y; }
+    if ( at + ends.x < 1e-6 * at ) { at = -ends.x; }
+    return nmt_pass2( at, range.x, range.y, alpha, sums0, sums1, ends );
+}`;
+// The same of networks with a core. The first target of pass 1 is the one call that also writes the core.
+const STEPS = `
+    let codes = nmt_core_codes( range.x, range.y );
+    let steps = nmt_core_steps( v, nmt_core_absorbance_of( alpha ), codes );`;
+const CORE_PASS1 = {
+  sums0: `
+fn nmt_three_sums0( v: f32, alpha: f32, range: vec2<f32>, pixel: u32, inFront: bool ) -> vec4<f32> {${STEPS}
+    if ( inFront ) { nmt_core_insert( pixel, steps, codes ); }
+    return vec4<f32>( nmt_core_absorbance( steps ), nmt_core_moments( steps ).xyz );
+}`,
+  sums1: `
+fn nmt_three_sums1( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {${STEPS}
+    return vec4<f32>( nmt_core_moments( steps ).w, select( 0.0, 1.0, steps.y > 0u ), 0.0, 0.0 );
+}`,
+};
+// What is within a step of a fragment of the core is that fragment, for the same reason.
+const corePass2 = (cores) => `
+fn nmt_three_transmittance(
+    v: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>,
+    ${cores.map((name) => `${name}: vec4<u32>`).join(", ")}
+) -> f32 {${STEPS}
+    let words = array<vec4<u32>, ${cores.length}>( ${cores.join(", ")} );
+    var own = steps;
+    for ( var slot = 0u; slot < NMT_HEAVY + 2u; slot++ ) {
+        let code = words[ slot / 4u ][ slot % 4u ];
+        var kept = nmt_core_heavy_steps( code, codes );
+        if ( slot == 0u ) { kept = nmt_core_nearest_steps( code ); }
+        if ( slot == 1u ) { kept = nmt_core_farthest_steps( code ); }
+        let apart = max( kept, steps ) - min( kept, steps );
+        if ( code > 0u && all( apart <= vec2<u32>( 1u ) ) ) { own = kept; }
+        if ( code > 0u && all( kept == steps ) ) { break; }
+    }
+    let moments = vec4<f32>( sums0.yzw, sums1.x );
+    return nmt_core_transmittance( own, codes, ${cores.join(", ")}, sums1.y, sums0.x, moments );
 }`;
 const RESOLVE = `
 fn nmt_three_resolve( background: vec4<f32>, weighted: vec4<f32>, sums0: vec4<f32> ) -> vec4<f32> {
@@ -106,18 +173,151 @@ fn nmt_three_resolve( background: vec4<f32>, weighted: vec4<f32>, sums0: vec4<f3
     return vec4<f32>( over.rgb + over.a * background.rgb, 1.0 - over.a * ( 1.0 - background.a ) );
 }`;
 
-function added(equation) {
+function added(equation = AddEquation) {
   const mode = new BlendMode(CustomBlending);
   mode.blendSrc = OneFactor;
   mode.blendDst = OneFactor;
-  if (equation !== undefined) mode.blendEquation = equation;
+  mode.blendEquation = equation;
   return mode;
 }
 
-/** A target that shaders read texel by texel. */
-function plain(texture, name, type, format) {
-  Object.assign(texture, { name, type, minFilter: NearestFilter, magFilter: NearestFilter, colorSpace: NoColorSpace });
-  if (format !== undefined) texture.format = format;
+/** Targets that shaders read texel by texel. They share the depth of opaque objects. */
+function targetsBeside({ depthTexture, stencilBuffer }, type, textures) {
+  const target = new RenderTarget(1, 1, { count: textures.length, depthTexture, stencilBuffer });
+  const common = { type, minFilter: NearestFilter, magFilter: NearestFilter, colorSpace: NoColorSpace };
+  target.textures.forEach((texture, i) => Object.assign(texture, common, textures[i]));
+  return target;
+}
+
+/**
+ * Whether a fragment passes the depth test for sure. Its shader runs before the test, so that it must find out itself
+ * whether the core may hold it; what is left out of the core is known by the sums alone.
+ */
+const isInFront = Fn(([opaque], builder) => {
+  const { material, renderer } = builder;
+  if (material.stencilWrite) return bool(false);
+  if (material.depthTest === false) return bool(true);
+  if (material.depthFunc !== LessEqualDepth || material.polygonOffset) return bool(false);
+  const isWritten = material.depthNode?.isNode === true || renderer.logarithmicDepthBuffer === true;
+  const own = isWritten ? builder.getFragDepth() : `${builder.getBuiltin("position", "fragCoord", "vec4<f32>")}.z`;
+  const depth = expression(own, "float");
+  // Depths of 24 bits are rounded.
+  return renderer.reversedDepthBuffer === true ? depth.greaterThan(opaque) : depth.lessThan(opaque.sub(6e-8));
+});
+
+/** The pixel that is drawn, in a target of the pass. */
+const texel = () => uvec2(screenCoordinate.xy);
+const [SUMS0, RANGE] = [{ name: "sums0", format: RGBAFormat }, { name: "range", format: RGFormat }];
+const sums1Of = (format) => ({ name: "sums1", format });
+
+/** A network fed by moments: the targets and the shaders of its passes. */
+class Moments {
+  constructor(source) {
+    this.source = wgsl(source);
+    this.isOfSix = source.includes("fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32>");
+  }
+
+  /** The targets of pass 1, those of each draw: one draw where the device writes all of them at once. */
+  draws(device) {
+    if (!this.isOfSix) return [[SUMS0, sums1Of(RGFormat), RANGE]];
+    const sums1 = sums1Of(RGBAFormat);
+    // 40 bytes a pixel, where four moments take the 32 that every device writes.
+    return device.limits.maxColorAttachmentBytesPerSample < 40 ? [[SUMS0, RANGE], [sums1]] : [[SUMS0, sums1, RANGE]];
+  }
+
+  /** What a fragment writes to a target of pass 1. */
+  sum(name, given) {
+    return wgslFn(pass1(name), [this.source])(given);
+  }
+
+  /** What passes in front of a fragment; `read` gives its pixel of a target. */
+  transmittance(given, read) {
+    const left = { sums0: read("sums0"), sums1: read("sums1"), ends: read("range") };
+    return wgslFn(PASS2, [this.source])({ ...given, ...left });
+  }
+
+  /** At the start of a frame. */
+  begin() {}
+
+  /** When opaque objects are drawn. */
+  keepDepth() {}
+
+  dispose() {}
+}
+
+/** A network with a core, a buffer that pass 1 writes by atomic maxima and pass 2 reads as vectors of four words. */
+class Core {
+  constructor(source) {
+    const [insertion, inserts] = /.*read_write> nmt_core: .*\n([^]*?fn nmt_core_insert\([^]*?\n}\n)/.exec(source);
+    this.vectors = Number(/const NMT_SLOTS: u32 = (\d+)u;/.exec(source)[1]) / 4;
+    this.source = wgsl(source.replace(insertion, ""));
+    const buffer = new StorageBufferAttribute(1, 4, Uint32Array);
+    this.written = storage(buffer, "uint").toAtomic().setName("nmt_three_core").setGroup(renderGroup);
+    this.read = storage(buffer, "uvec4").setGroup(renderGroup);
+    this.inserts = wgsl(inserts.replaceAll("&nmt_core[", "&nmt_three_core.value["), [this.source, this.written]);
+    this.columns = uniform(0, "uint").setGroup(renderGroup);
+    // A copy of that of opaque objects: what a draw tests against it cannot read.
+    this.depth = new DepthTexture(1, 1);
+    this.clear = Fn(() => {
+      this.read.element(instanceIndex).assign(uvec4(0));
+    })().compute(1);
+  }
+
+  get pixel() {
+    const at = texel();
+    return at.y.mul(this.columns).add(at.x);
+  }
+
+  draws() {
+    return [[SUMS0, sums1Of(RGFormat)]];
+  }
+
+  sum(name, given) {
+    const { pixel, inserts } = this;
+    const inFront = isInFront(textureLoad(this.depth, texel()));
+    return wgslFn(CORE_PASS1[name], [inserts])({ ...given, pixel, inFront });
+  }
+
+  transmittance(given, read) {
+    const first = this.pixel.mul(this.vectors);
+    const cores = Array.from({ length: this.vectors }, (_, i) => [`core${i}`, this.read.element(first.add(i))]);
+    const left = { sums0: read("sums0"), sums1: read("sums1"), ...Object.fromEntries(cores) };
+    return wgslFn(corePass2(cores.map(([name]) => name)), [this.source])({ ...given, ...left });
+  }
+
+  begin(renderer, { width, height, depthTexture }) {
+    const { type, format } = depthTexture;
+    const count = width * height * this.vectors;
+    if (this.columns.value !== width || this.clear.count !== count) {
+      const most = renderer.backend.device.limits.maxStorageBufferBindingSize;
+      if (16 * count > most) {
+        const pixels = `${width} x ${height} pixels`;
+        throw new Error(`nmtPass: the core of ${pixels} takes ${16 * count} bytes, the device binds ${most}.`);
+      }
+      this.free();
+      this.written.value = this.read.value = new StorageBufferAttribute(count, 4, Uint32Array);
+      this.clear.count = count;
+      this.columns.value = width;
+      Object.assign(this.depth, { type, format });
+      Object.assign(this.depth.image, { width, height });
+    }
+    renderer.compute(this.clear);
+  }
+
+  keepDepth(renderer, { depthTexture }) {
+    renderer.copyTextureToTexture(depthTexture, this.depth);
+  }
+
+  /** Gives back what has the size of the pass. */
+  free() {
+    this.read.value.dispose();
+    this.depth.dispose();
+  }
+
+  dispose() {
+    this.free();
+    this.clear.dispose();
+  }
 }
 
 export class NMTPassNode extends PassNode {
@@ -126,24 +326,19 @@ export class NMTPassNode extends PassNode {
   }
 
   constructor(scene, camera, { network = "recommended", range = null, ...options } = {}) {
-    super(PassNode.COLOR, scene, camera, { ...options, samples: 0 });
+    super(PassNode.COLOR, scene, camera, { ...options, samples: 0, depthBuffer: true });
     this.isNMTPassNode = true;
     this.range = range;
     const source = sourceOf(network);
-    this._source = wgsl(source);
-    this._range = uniform(new Vector2(1, 2));
+    this._network = hasCore(source) ? new Core(source) : new Moments(source);
+    // In the group of the frame: what is an object's own is not updated while it stands still.
+    this._range = uniform(new Vector2(1, 2)).setGroup(renderGroup);
 
-    // Both keep the depth of the opaque objects, which transparent ones are tested against.
-    this._sums = new RenderTarget(1, 1, { count: 3 });
-    this._sums.depthTexture = this.renderTarget.depthTexture;
-    plain(this._sums.textures[0], "sums0", FloatType);
-    plain(this._sums.textures[1], "sums1", FloatType, RGFormat);
-    plain(this._sums.textures[2], "range", FloatType, RGFormat);
-    this._weighted = new RenderTarget(1, 1, { count: 1 });
-    this._weighted.depthTexture = this.renderTarget.depthTexture;
-    plain(this._weighted.textures[0], "weighted", HalfFloatType);
+    // Targets of pass 1, a set for each draw, are made when the device is known.
+    this._sums = [];
+    this._weighted = targetsBeside(this.renderTarget, HalfFloatType, [{ name: "weighted" }]);
 
-    // Whether both have not been drawn into since they got their size.
+    // Whether none has been drawn into since it got its size.
     this._isNew = true;
     this._renderer = null;
     this._outputs = null;
@@ -160,25 +355,34 @@ export class NMTPassNode extends PassNode {
     this._drawTransparent = draws(true);
   }
 
-  /** What both passes write. */
-  get _passes() {
+  /** What draws have left in this pixel of a target. */
+  _read(name) {
+    const textures = [...this._sums, this._weighted].flatMap((target) => target.textures);
+    const found = textures.find((texture) => texture.name === name);
+    return textureLoad(found, texel());
+  }
+
+  /** Each draw of transparent objects: where it goes, and what it writes. */
+  get _draws() {
     if (this._outputs === null) {
       const v = positionView.z.negate();
       const alpha = output.a.clamp(0, 1);
       const given = { v, alpha, range: this._range };
-      const includes = [this._source];
-      const call = (field) => wgslFn(pass1(field), includes)(given);
-      const sums = mrt({ sums0: call("sums0"), sums1: call("sums1"), range: call("range") });
-      sums.setBlendMode("sums0", added()).setBlendMode("sums1", added()).setBlendMode("range", added(MaxEquation));
-      sums.setClearColor("sums0", new Color(0, 0, 0), 0).setClearColor("sums1", new Color(0, 0, 0), 0);
-      sums.setClearColor("range", new Color(NOTHING, NOTHING, 0), 0);
-      const at = ivec2(screenCoordinate.xy);
-      const [sums0, sums1, ends] = this._sums.textures.map((t) => textureLoad(t, at));
-      const T = wgslFn(PASS2, includes)({ v0: v, alpha, range: this._range, sums0, sums1, ends });
+      const sums = this._sums.map((target) => {
+        const names = target.textures.map((texture) => texture.name);
+        const outputs = mrt(Object.fromEntries(names.map((name) => [name, this._network.sum(name, given)])));
+        for (const name of names) {
+          const ends = name === "range";
+          outputs.setBlendMode(name, added(ends ? MaxEquation : AddEquation));
+          outputs.setClearColor(name, ends ? new Color(NOTHING, NOTHING, 0) : new Color(0, 0, 0), 0);
+        }
+        return { target, outputs };
+      });
+      const T = this._network.transmittance(given, (name) => this._read(name));
       const share = alpha.mul(T);
       const weighted = mrt({ weighted: vec4(output.rgb.mul(share), share) });
       weighted.setBlendMode("weighted", added()).setClearColor("weighted", new Color(0, 0, 0), 0);
-      this._outputs = { sums, weighted };
+      this._outputs = [...sums, { target: this._weighted, outputs: weighted }];
     }
     return this._outputs;
   }
@@ -186,19 +390,20 @@ export class NMTPassNode extends PassNode {
   setSize(width, height) {
     super.setSize(width, height);
     const { width: w, height: h } = this.renderTarget;
-    this._isNew ||= this._sums.width !== w || this._sums.height !== h;
-    this._sums.setSize(w, h);
-    this._weighted.setSize(w, h);
+    this._isNew ||= this._weighted.width !== w || this._weighted.height !== h;
+    for (const target of [...this._sums, this._weighted]) target.setSize(w, h);
   }
 
   setup(builder) {
     const why = whyUnsupported(builder.renderer);
     if (why !== null) throw new Error(why);
-    const opaque = super.setup(builder);
-    const at = ivec2(screenCoordinate.xy);
-    const weighted = textureLoad(this._weighted.textures[0], at);
-    const sums0 = textureLoad(this._sums.textures[0], at);
-    return wgslFn(RESOLVE, [this._source])({ background: opaque, weighted, sums0 });
+    const background = super.setup(builder);
+    if (this._sums.length === 0) {
+      const draws = this._network.draws(builder.renderer.backend.device);
+      this._sums = draws.map((textures) => targetsBeside(this.renderTarget, FloatType, textures));
+    }
+    const [weighted, sums0] = [this._read("weighted"), this._read("sums0")];
+    return wgslFn(RESOLVE, [this._network.source])({ background, weighted, sums0 });
   }
 
   /** View depths that hold every transparent object. */
@@ -232,6 +437,7 @@ export class NMTPassNode extends PassNode {
     this._renderer = renderer;
     renderer.getDrawingBufferSize(size);
     this.setSize(size.width, size.height);
+    this._network.begin(renderer, this.renderTarget);
     rendererState = RendererUtils.saveRendererState(renderer, rendererState);
     const { mask } = camera.layers;
     this._cameraNear.value = camera.near;
@@ -245,7 +451,7 @@ export class NMTPassNode extends PassNode {
     // The renderer clears the depth of a target that it has not seen, which would be that of the opaque objects.
     if (this._isNew) {
       renderer.setMRT(null);
-      for (const target of [this._sums, this._weighted]) {
+      for (const { target } of this._draws) {
         renderer.setRenderTarget(target);
         renderer.render(nothing, camera);
       }
@@ -257,19 +463,18 @@ export class NMTPassNode extends PassNode {
     renderer.setRenderObjectFunction(this._drawOthers);
     renderer.render(scene, camera);
     this._findRange();
+    this._network.keepDepth(renderer, this.renderTarget);
 
     // The background belongs to the pass before.
     sceneState = RendererUtils.resetSceneState(scene, sceneState);
     renderer.autoClear = true;
     renderer.autoClearColor = true;
     renderer.autoClearDepth = false;
+    renderer.autoClearStencil = false;
     renderer.opaque = false;
     renderer.transparent = true;
     renderer.setRenderObjectFunction(this._drawTransparent);
-    for (const [target, outputs] of [
-      [this._sums, this._passes.sums],
-      [this._weighted, this._passes.weighted],
-    ]) {
+    for (const { target, outputs } of this._draws) {
       renderer.setRenderTarget(target);
       renderer.setMRT(outputs);
       renderer.render(scene, camera);
@@ -282,8 +487,8 @@ export class NMTPassNode extends PassNode {
 
   dispose() {
     super.dispose();
-    this._sums.dispose();
-    this._weighted.dispose();
+    for (const target of [...this._sums, this._weighted]) target.dispose();
+    this._network.dispose();
   }
 }
 

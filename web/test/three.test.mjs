@@ -80,6 +80,10 @@ for (const [title, dense, layers, factor] of [
           oit: oitPass(scene, camera),
           small: nmtPass(scene, camera, { network: "small" }),
           recommended: nmtPass(scene, camera),
+          "moments-6": nmtPass(scene, camera, { network: "moments-6" }),
+          "core-small": nmtPass(scene, camera, { network: "core-small" }),
+          core: nmtPass(scene, camera, { network: "core" }),
+          "core-large": nmtPass(scene, camera, { network: "core-large" }),
         }))
           images[name] = await frame(renderer, node, width, height, 2);
         const reference = await peel(renderer, scene, camera, width, height, 64);
@@ -116,21 +120,47 @@ for (const [title, dense, layers, factor] of [
     const readme = fs.readFileSync(path.join(WEB, "npm", "README.md"), "utf8");
     const row = readme.split("\n").find((line) => line.startsWith(`| ${dense ? "thirty balls" : "its own example"}`));
     const printed = row.split("|").slice(2, -1).map(Number);
-    ["sorted", "oit", "small", "recommended"].forEach((name, i) => {
+    assert.equal(printed.length, Object.keys(errors).length);
+    Object.keys(errors).forEach((name, i) => {
       const ratio = errors[name] / printed[i];
       assert.ok(ratio > 0.5 && ratio < 2, `${name}: ${errors[name]}, the README says ${printed[i]}`);
     });
-    for (const name of ["small", "recommended"]) {
+    for (const name of Object.keys(errors).slice(2)) {
       assert.ok(errors[name] < errors.oit / factor && errors[name] < errors.sorted / 2, JSON.stringify(errors));
     }
     await page.close();
   });
 }
 
-test("one layer, one colour, opaque depth, resizing, a transparent background, disposal", async () => {
+test("six moments: pass 1 is one draw where the device writes 40 bytes a pixel, else two, the same bits", async () => {
   const page = await visit();
   const found = await page.evaluate(async (mseText) => {
     const mse = eval(mseText);
+    const camera = makeCamera(64 / 48);
+    const draw = async (network, requiredLimits) => {
+      const renderer = await open(64, 48, { requiredLimits });
+      renderer.info.autoReset = false;
+      const image = await frame(renderer, nmtPass(makeDenseScene().scene, camera, { network }), 64, 48);
+      return { image, calls: renderer.info.render.drawCalls };
+    };
+    const once = await draw("moments-6", { maxColorAttachmentBytesPerSample: 40 });
+    const [twice, four] = [await draw("moments-6"), await draw("recommended")];
+    const calls = [once, twice, four].map((drawn) => drawn.calls);
+    return { calls, six: mse(once.image, twice.image), four: mse(once.image, four.image) };
+  }, MSE);
+  assert.deepEqual(page.errors, []);
+  // Thirty balls, both sides: 60 calls a draw of transparent objects, and the last that fills the screen.
+  assert.deepEqual(found.calls, [121, 181, 121]);
+  // Control: four moments give another image.
+  assert.ok(found.six === 0 && found.four > 1e-8, JSON.stringify(found));
+  await page.close();
+});
+
+const drawsRightly = async (network) => {
+  const page = await visit();
+  const found = await page.evaluate(async ([mseText, network]) => {
+    const mse = eval(mseText);
+    const made = (scene, options) => nmtPass(scene, camera, { network, ...options });
     const renderer = await open(64, 48, { alpha: true });
     const camera = makeCamera(64 / 48);
     const layer = (z, color, opacity) => {
@@ -145,7 +175,7 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
       scene.background = background === null ? null : new THREE.Color().setRGB(...background);
       scene.add(...objects);
       if (background === null) renderer.setClearColor(0x000000, 0);
-      const node = nmtPass(scene, camera);
+      const node = made(scene);
       const image = await frame(renderer, node, width, height);
       node.dispose();
       return image;
@@ -167,21 +197,29 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
     out.clear = Array.from(await draw([layer(-5, 0xff0000, 0.3)], null)).slice(0, 4);
     // A pass that is resized draws what one of that size draws.
     const { scene } = makeScene();
-    const node = nmtPass(scene, camera);
+    const node = made(scene);
     await frame(renderer, node, 40, 30);
     const resized = await frame(renderer, node, 64, 48);
-    out.resized = mse(resized, await frame(renderer, nmtPass(scene, camera), 64, 48));
+    out.resized = mse(resized, await frame(renderer, made(scene), 64, 48));
     out.size = [resized.length];
+    // What moves changes the range of depth for what stands still too.
+    const balls = makeDenseScene().scene;
+    const moved = made(balls);
+    await frame(renderer, moved, 64, 48);
+    balls.children.at(-1).position.set(-20, -10, -25);
+    const later = await frame(renderer, moved, 64, 48);
+    out.moved = mse(later, await frame(renderer, made(balls), 64, 48));
+    out.shift = mse(later, await frame(renderer, made(balls, { range: [1, 20] }), 64, 48));
     // Disposal gives back what was made.
-    const textures = () => renderer.info.memory.textures;
-    const before = textures();
+    const held = () => renderer.info.memory.textures + renderer.info.memory.storageAttributes;
+    const before = held();
     for (let i = 0; i < 5; i++) {
-      const again = nmtPass(scene, camera);
+      const again = made(scene);
       await frame(renderer, again, 64, 48);
-      out.held = textures() - before;
+      out.held = held() - before;
       again.dispose();
     }
-    out.left = textures() - before;
+    out.left = held() - before;
     let message = "";
     try {
       nmtPass(scene, camera, { network: "none" });
@@ -192,7 +230,7 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
     const webgl = await open(16, 16, { forceWebGL: true });
     out.webgl = whyUnsupported(webgl);
     return { ...out, red };
-  }, MSE);
+  }, [MSE, network]);
   assert.deepEqual(page.errors, []);
   const near = (a, b, what) => b.forEach((x, i) => assert.ok(Math.abs(a[i] - x) < 2e-3, `${what}: ${a} is not ${b}`));
   near(found.single, [0.3, 0, 0.7, 1], "one layer");
@@ -202,11 +240,114 @@ test("one layer, one colour, opaque depth, resizing, a transparent background, d
   near(found.hidden, [1, 0.7, 0.7, 1], "before a wall");
   near(found.clear, [0.3, 0, 0, 0.3], "before nothing, premultiplied");
   assert.ok(found.resized < 1e-9 && found.size[0] === 4 * 64 * 48, `resized: ${found.resized}`);
-  assert.ok(found.held > 0 && found.left < found.held, `${found.left} of ${found.held} textures are left`);
+  // Control: another range gives another image.
+  assert.ok(found.moved === 0 && found.shift > 1e-8, `moved: ${found.moved}, another range: ${found.shift}`);
+  assert.ok(found.held > 0 && found.left < found.held, `${found.left} of ${found.held} textures and buffers are left`);
   assert.match(found.unknown, /no network "none"/);
   assert.match(found.webgl, /needs WebGPU/);
   await page.close();
+};
+for (const network of ["recommended", "moments-6", "core"]) {
+  test(`${network}: one layer, one colour, opaque depth, resizing, a transparent background, disposal`, () =>
+    drawsRightly(network));
+}
+
+test("core: what is rejected or discarded is not in it, whatever the depth buffer", async () => {
+  const page = await visit();
+  const found = await page.evaluate(async (mseText) => {
+    const mse = eval(mseText);
+    const out = {};
+    const images = {};
+    for (const [name, parameters, options] of [
+      ["plain", {}, {}],
+      ["reversed", { reversedDepthBuffer: true }, {}],
+      ["logarithmic", { logarithmicDepthBuffer: true }, {}],
+      ["stencil", {}, { stencilBuffer: true }],
+    ]) {
+      const renderer = await open(64, 48, parameters);
+      const camera = makeCamera(64 / 48);
+      const layer = (z, color, more) => {
+        const material = new THREE.MeshBasicMaterial({ color, transparent: true, ...more });
+        const mesh = new THREE.Mesh(new THREE.PlaneGeometry(60, 60), material);
+        mesh.quaternion.copy(camera.quaternion);
+        mesh.position.copy(new THREE.Vector3(0, 0, z).applyMatrix4(camera.matrixWorld));
+        return mesh;
+      };
+      const wall = layer(-20, 0xffffff, { transparent: false });
+      const hidden = [-21, -22, -23, -24, -25, -26, -27].map((z) => layer(z, 0x00ff00, { opacity: 0.9 }));
+      const discarded = layer(-5, 0x0000ff, { opacity: 0.3, alphaTest: 0.5 });
+      const draw = (network, { scene }, ...objects) => {
+        scene.add(...objects);
+        return frame(renderer, nmtPass(scene, camera, { ...options, network, range: [1, 60] }), 64, 48);
+      };
+      const seen = await draw("core", makeDenseScene(), wall);
+      const behind = await draw("core", makeDenseScene(), wall, ...hidden, discarded);
+      const without = await draw("core", makeDenseScene(), ...hidden);
+      // In the plane of the wall, drawn by an offset; behind it, drawn by no test at all.
+      const decal = { opacity: 0.3, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 };
+      const few = [layer(-5, 0x0000ff, { opacity: 0.5 }), layer(-20, 0xff0000, decal)];
+      const through = layer(-30, 0x00ff00, { opacity: 0.5, depthTest: false });
+      const empty = () => ({ scene: new THREE.Scene() });
+      images[name] = seen;
+      out[name] = {
+        buffers: mse(seen, images.plain),
+        networks: mse(seen, await draw("recommended", makeDenseScene(), wall)),
+        hidden: mse(seen, behind),
+        without: mse(seen, without),
+        decal: Array.from((await draw("core", empty(), wall, ...few)).slice(0, 4)),
+        through: Array.from((await draw("core", empty(), wall, few[0], through)).slice(0, 4)),
+      };
+    }
+    const huge = nmtPass(makeScene().scene, makeCamera(64 / 48), { network: "core" });
+    huge.setResolutionScale(40);
+    try {
+      await frame(await open(64, 48), huge, 64, 48);
+    } catch (error) {
+      out.huge = error.message;
+    }
+    return out;
+  }, MSE);
+  assert.deepEqual(page.errors, []);
+  const near = (a, b, what) => b.forEach((x, i) => assert.ok(Math.abs(a[i] - x) < 2e-3, `${what}: ${a} is not ${b}`));
+  const { huge, ...buffers } = found;
+  for (const [name, { hidden, without, networks, decal, through, ...drawn }] of Object.entries(buffers)) {
+    // Control: another network gives another image.
+    assert.ok(drawn.buffers < 1e-8 && networks > 1e-6, `${name}: ${drawn.buffers}, another network ${networks}`);
+    // Control: without the wall the same layers are seen.
+    assert.ok(hidden === 0 && without > 1e-3, `${name}: hidden ${hidden}, without a wall ${without}`);
+    near(decal, [0.5 * 1, 0.5 * 0.7, 0.5 + 0.5 * 0.7, 1], `${name}, decal`);
+    near(through, [0.5 * 0.5, 0.5, 0.5 + 0.5 * 0.5, 1], `${name}, no test`);
+    assert.throws(() => near(decal, through, "control"));
+  }
+  assert.match(huge, /the core of 2560 x 1920 pixels takes 157286400 bytes, the device binds 134217728/);
+  await page.close();
 });
+
+test("core: steps that differ by one between both passes do no harm", async () => {
+  const page = await visit();
+  const found = await page.evaluate(async (mseText) => {
+    const mse = eval(mseText);
+    const { core } = await import("/node_modules/neural-moment-transparency/networks.js");
+    const renderer = await open(64, 48);
+    const camera = makeCamera(64 / 48);
+    // In every second pixel the core holds fragments some steps nearer than pass 2 finds them.
+    const draw = (steps) => {
+      const wgsl = core.replace(
+        "nmt_core_nearest_code(steps))",
+        `nmt_core_nearest_code(steps - vec2<u32>(${steps}u * (pixel & 1u), 0u)))`,
+      );
+      if (wgsl === core) throw new Error("there is no such place");
+      return frame(renderer, nmtPass(makeDenseScene().scene, camera, { network: { wgsl } }), 64, 48);
+    };
+    const plain = await draw(0);
+    return { one: mse(await draw(1), plain), three: mse(await draw(3), plain) };
+  }, MSE);
+  assert.deepEqual(page.errors, []);
+  // Control: three steps do.
+  assert.ok(found.one < 1e-7 && found.three > 1e-6, JSON.stringify(found));
+  await page.close();
+});
+
 
 test("README: its program runs as it stands, order does not matter, other blending is drawn as ever", async () => {
   const readme = fs.readFileSync(path.join(FRESH, "node_modules", "neural-moment-transparency", "README.md"), "utf8");
@@ -231,10 +372,15 @@ test("README: its program runs as it stands, order does not matter, other blendi
       const there = await image(scene);
       scene.children.reverse();
       out.order = mse(await image(scene), there);
+      const many = makeDenseScene().scene;
+      const before = await image(many, { network: "core" });
+      many.children.reverse();
+      out.orderOfCore = mse(await image(many, { network: "core" }), before);
+      out.otherNetwork = mse(await image(many), before);
       // The export of a network of one's own is that network.
       const { small } = await import("/node_modules/neural-moment-transparency/networks.js");
       out.own = mse(await image(scene, { network: { wgsl: small } }), await image(scene, { network: "small" }));
-      out.refused = [{ wgsl: "fn nothing() {}" }, {}, "core"].map((network) => {
+      out.refused = [{ wgsl: "fn nothing() {}" }, {}, "paper"].map((network) => {
         try {
           nmtPass(scene, camera, { network });
           return "";
@@ -267,10 +413,12 @@ test("README: its program runs as it stands, order does not matter, other blendi
   assert.deepEqual(page.errors, []);
   assert.equal(found.why, null);
   assert.ok(found.pass && found.frames > 0, `${found.frames} frames`);
+  // Control: another network gives another image.
+  assert.ok(found.orderOfCore < 1e-9 && found.otherNetwork > 1e-6, `${found.orderOfCore}, ${found.otherNetwork}`);
   assert.ok(found.order < 1e-9 && found.own === 0, `order ${found.order}, own ${found.own}`);
   assert.match(found.refused[0], /no "fn nmt_moments/);
   assert.match(found.refused[1], /there are recommended, small/);
-  assert.match(found.refused[2], /no network "core"/);
+  assert.match(found.refused[2], /no network "paper"/);
   assert.ok(found.additive < 1e-9 && found.normal > 1e-4, `additive ${found.additive}, normal ${found.normal}`);
   // What the README says of Node and of files.
   const { recommended } = await import(path.join(FRESH, "node_modules/neural-moment-transparency/networks.js"));
