@@ -7,7 +7,7 @@
 //         steps = nmt_core_steps(v, nmt_core_absorbance_of(alpha), codes)
 //         nmt_core_insert(pixel, steps, codes)
 //         add to b0: nmt_core_absorbance(steps); to the moments: nmt_core_moments(steps); to n: 1 where steps.y > 0, else 0
-// Pass 2: T = nmt_core_transmittance(steps, codes, core0, ..., n, b0, moments), the core read as vectors of four words;
+// Pass 2: T = nmt_core_transmittance(steps, codes, core0, ..., n, b0, moments), the core as vectors of four words;
 //         steps must come from the same expressions as in pass 1. Add up alpha T C and alpha T.
 // Resolve: colour = (1 - exp(-b0)) * sum(alpha T C) / sum(alpha T) + exp(-b0) * background
 

@@ -2,12 +2,12 @@
 // Written by nmt 0.1.0.
 //
 // Frame:  codes = nmt_core_codes(v0, v1), v0 and v1 the least and the greatest view depth of what is transparent. Clear to 0 the buffer
-//         nmt_core, 8 words a pixel, and targets for b0, 4 moments and n, which are added up by blending in f32.
+//         nmt_core, 6 words a pixel, and targets for b0, 4 moments and n, which are added up by blending in f32.
 // Pass 1, for every fragment of view depth v and opacity alpha:
 //         steps = nmt_core_steps(v, nmt_core_absorbance_of(alpha), codes)
 //         nmt_core_insert(pixel, steps, codes)
 //         add to b0: nmt_core_absorbance(steps); to the moments: nmt_core_moments(steps); to n: 1 where steps.y > 0, else 0
-// Pass 2: T = nmt_core_transmittance(steps, codes, core0, ..., n, b0, moments), the core read as vectors of four words;
+// Pass 2: T = nmt_core_transmittance(steps, codes, core0, ..., n, b0, moments), the core as vectors of four words;
 //         steps must come from the same expressions as in pass 1. Add up alpha T C and alpha T.
 // Resolve: colour = (1 - exp(-b0)) * sum(alpha T C) / sum(alpha T) + exp(-b0) * background
 
@@ -152,7 +152,7 @@ const NMT_DEPTH_BITS: u32 = 16u;
 const NMT_OCTAVE_BITS: u32 = 11u;
 const NMT_HEAVY: u32 = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-const NMT_SLOTS: u32 = 8u;
+const NMT_SLOTS: u32 = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const NMT_KEY_SCALE: f32 = 0.625;
 // The last step of absorbance, that of A = 10.

@@ -5,7 +5,7 @@ use super::interpret::{Interpreter, Value};
 use super::{Finding, hlsl, pruned, rows::RowKind, without_prefix};
 use crate::check::Numbers;
 use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-use crate::export::core::{CoreBinding, LANGUAGES, chain_name, codes, file_name, insert, stride};
+use crate::export::core::{CoreBinding, LANGUAGES, chain_name, codes, file_name, insert, vectors};
 use crate::export::{Format, Target};
 use crate::features::core::CoreSet;
 use crate::model::Mlp;
@@ -128,7 +128,7 @@ fn error_of(wgsl: &str, set: CoreSet, rows: &[Row]) -> Result<AbsoluteError, Str
     let mut error = AbsoluteError::default();
     for row in rows {
         let mut arguments = vec![Value::<1>::Uniform(row.own.z), Value::Uniform(row.own.absorbance)];
-        for i in 0..stride(set) / 4 {
+        for i in 0..vectors(set) {
             let four = |f: &dyn Fn(&Entry<f32>) -> f32| -> Vec<f32> {
                 (4 * i..4 * i + 4).map(|at| row.core.get(at).map_or(0.0, f)).collect()
             };
@@ -191,7 +191,7 @@ fn as_wgsl(text: &str, language: Target, set: CoreSet) -> Result<Result<String, 
                 Ok(slangc) => slangc,
                 Err(missing) => return Ok(Err(missing)),
             };
-            let vectors = (0..2 * stride(set) / 4).map(|_| "a, ").collect::<String>();
+            let vectors = (0..2 * vectors(set)).map(|_| "a, ").collect::<String>();
             let shader = format!(
                 "{}\nRWStructuredBuffer<float4> rows : register(u1);\n\n[numthreads(1, 1, 1)]\nvoid main(uint3 id : \
                  SV_DispatchThreadID) {{\n    float4 a = rows[id.x];\n    rows[id.x] = nmt_core_weigh(a.x, a.y, \

@@ -328,23 +328,19 @@ fn of_core(text: &str, set: CoreSet, language: Target) -> String {
     let moment = |k: usize| if k <= set.moments { sum(k) } else { "0.0".to_owned() };
     let moments: Vec<String> = (1..=4).map(moment).collect();
     let words = core::stride(set);
-    let slot = |i: usize| {
-        if i == 0 {
-            "core[first]".to_owned()
-        } else {
-            format!("core[first + {i}u]")
-        }
+    let pair = |i: usize| match i {
+        0 => "core[first]".to_owned(),
+        _ => format!("core[first + {i}u]"),
     };
-    let slots: Vec<String> = (0..words / 4).map(slot).collect();
     let mut text = text.to_owned();
     for (i, terms) in all.iter().enumerate() {
         text = text.replace(&format!("{{terms{i}}}"), terms);
     }
     text.replace("{terms}", &all.join(", "))
         .replace("{moments}", &moments.join(", "))
-        .replace("{slots}", &slots.join(", "))
+        .replace("{slots}", &core::gathered(set, language, &pair))
         .replace("{words}", &words.to_string())
-        .replace("{vectors}", &(words / 4).to_string())
+        .replace("{pairs}", &(words / 2).to_string())
         .replace("{n}", &sum(numbers - 1))
         .replace("{b0}", &sum(0))
 }

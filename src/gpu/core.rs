@@ -126,8 +126,8 @@ layout(std430, binding = 2) readonly buffer Depths { float view_z[]; };
 layout(std430, binding = 3) readonly buffer Absorbances { float absorbance[]; };
 layout(std430, binding = 5) buffer Weights { float weights[]; };
 
-uvec4 slots(uint at) {
-    return uvec4(nmt_core[at], nmt_core[at + 1u], nmt_core[at + 2u], nmt_core[at + 3u]);
+uvec2 slots(uint at) {
+    return uvec2(nmt_core[at], nmt_core[at + 1u]);
 }
 
 void main() {
@@ -148,8 +148,9 @@ void main() {
     }
     for (uint j = offsets[pixel]; j < offsets[pixel + 1u]; j++) {
         uvec2 own = nmt_core_steps(view_z[j], absorbance[j], codes);
-        uvec4 core0 = slots(8u * pixel);
-        uvec4 core1 = slots(8u * pixel + 4u);
+        uint first = NMT_SLOTS * pixel;
+        uvec4 core0 = uvec4(slots(first), slots(first + 2u));
+        uvec4 core1 = uvec4(slots(first + 4u), 0u, 0u);
         weights[j] = nmt_core_transmittance(own, codes, core0, core1, n, b0, moments);
     }
 }
@@ -158,7 +159,7 @@ void main() {
     /// The same in HLSL.
     fn hlsl_shader() -> String {
         let body = GLSL
-            .split("uvec4 slots")
+            .split("uvec2 slots")
             .nth(1)
             .unwrap()
             .replace("vec4(0.0)", "float4(0.0, 0.0, 0.0, 0.0)");
@@ -177,7 +178,7 @@ StructuredBuffer<float> view_z : register(t2);
 StructuredBuffer<float> absorbance : register(t3);
 RWStructuredBuffer<float> weights : register(u5);
 ";
-        format!("{buffers}\nuint4 slots{body}")
+        format!("{buffers}\nuint2 slots{body}")
     }
 
     /// The fragment stage: a point a fragment, all of a pixel on one place of the target.

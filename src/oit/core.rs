@@ -19,13 +19,13 @@ pub const ENTRY: Entry = Entry {
 };
 
 /// A method that keeps single fragments by a chain of atomics besides the sums of all others and their number. Slots
-/// are read four at a time, so that a buffer holds a multiple of four.
+/// are read two at a time, so that a buffer holds an even number.
 pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
     let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
     Capabilities {
         bits_per_pixel: of_sums
             .bits_per_pixel
-            .map(|bits| bits + 32 * set.slots().next_multiple_of(4) as u32),
+            .map(|bits| bits + 32 * set.slots().next_multiple_of(2) as u32),
         needs: Needs {
             atomics: true,
             ..of_sums.needs

@@ -2,7 +2,7 @@
 
 use super::absorbance;
 use crate::export::Target;
-use crate::export::core::{codes, stride, weigh, weigh_by_network};
+use crate::export::core::{codes, gathered, stride, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
@@ -13,11 +13,10 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
         "" => weigh(set, Target::Wgsl),
         _ => weigh_by_network(set, Target::Wgsl),
     };
-    let vectors = stride(set) / 4;
     let listed = |items: Vec<String>| items.join(", ");
     let lanes = ["x", "y", "z", "w"];
     let added = listed((0..set.moments).map(|k| format!("moments.{}", lanes[k])).collect());
-    let slots = listed((0..vectors).map(|i| format!("p.core[{i}]")).collect());
+    let slots = gathered(set, Target::Wgsl, &|i| format!("p.core[{i}]"));
     let sum = |k: usize| match k < set.moments {
         true => format!("p.sums[{}]", k + 1),
         false => "0.0".to_owned(),
@@ -32,8 +31,9 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
         .replace("OIT_MOMENTS", &added)
         .replace("OIT_SLOTS", &slots);
     format!(
-        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {vectors}u;\n\n{}{}{}{prelude}{short}",
+        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {}u;\n\n{}{}{}{prelude}{short}",
         set.moments + 2,
+        stride(set) / 2,
         codes(set, Target::Wgsl),
         weigh,
         absorbance(),
@@ -69,12 +69,11 @@ pub(super) fn list(set: CoreSet) -> String {
     include_str!("core/list.wgsl").replace("OIT_HEAVY", &heavy.collect::<Vec<_>>().join("\n    "))
 }
 
-/// The core of a pixel as the last member of `OitPixel`, from a buffer of vectors; nothing where the method keeps none.
+/// The core of a pixel as the last member of `OitPixel`, from a buffer of pairs; nothing where the method keeps none.
 pub(super) fn member(set: Option<CoreSet>) -> String {
     let Some(set) = set else { return String::new() };
-    let vectors = stride(set) / 4;
-    let items: Vec<String> = (0..vectors)
+    let items: Vec<String> = (0..stride(set) / 2)
         .map(|i| format!("oit_core[pixel * OIT_CORE + {i}u]"))
         .collect();
-    format!(", array<vec4<u32>, OIT_CORE>({})", items.join(", "))
+    format!(", array<vec2<u32>, OIT_CORE>({})", items.join(", "))
 }

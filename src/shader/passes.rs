@@ -195,7 +195,7 @@ const RESOLVE: &str = include_str!("passes/resolve.wgsl");
 
 /// Where render passes find the cores.
 pub const CORE: CoreBinding = CoreBinding { group: 3, binding: 0 };
-const CORE_READ: &str = "\n@group(3) @binding(0) var<storage, read> oit_core: array<vec4<u32>>;\n\n";
+const CORE_READ: &str = "\n@group(3) @binding(0) var<storage, read> oit_core: array<vec2<u32>>;\n\n";
 const INSERT: &str = "let place = vec2<u32>(f.position.xy);\n    \
                       nmt_core_insert(place.y * oit_frame.size.x + place.x, seen.steps, oit_codes());";
 

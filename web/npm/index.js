@@ -41,6 +41,7 @@ import {
   textureLoad,
   uniform,
   uvec2,
+  uvec2,
   uvec4,
   vec4,
   wgsl,
@@ -245,21 +246,21 @@ class Moments {
   dispose() {}
 }
 
-/** A network with a core, a buffer that pass 1 writes by atomic maxima and pass 2 reads as vectors of four words. */
+/** A network with a core, a buffer that pass 1 writes by atomic maxima and pass 2 reads in pairs of words. */
 class Core {
   constructor(source) {
     const [insertion, inserts] = /.*read_write> nmt_core: .*\n([^]*?fn nmt_core_insert\([^]*?\n}\n)/.exec(source);
-    this.vectors = Number(/const NMT_SLOTS: u32 = (\d+)u;/.exec(source)[1]) / 4;
+    this.pairs = Number(/const NMT_SLOTS: u32 = (\d+)u;/.exec(source)[1]) / 2;
     this.source = wgsl(source.replace(insertion, ""));
-    const buffer = new StorageBufferAttribute(1, 4, Uint32Array);
+    const buffer = new StorageBufferAttribute(1, 2, Uint32Array);
     this.written = storage(buffer, "uint").toAtomic().setName("nmt_three_core").setGroup(renderGroup);
-    this.read = storage(buffer, "uvec4").setGroup(renderGroup);
+    this.read = storage(buffer, "uvec2").setGroup(renderGroup);
     this.inserts = wgsl(inserts.replaceAll("&nmt_core[", "&nmt_three_core.value["), [this.source, this.written]);
     this.columns = uniform(0, "uint").setGroup(renderGroup);
     // A copy of that of opaque objects: what a draw tests against it cannot read.
     this.depth = new DepthTexture(1, 1);
     this.clear = Fn(() => {
-      this.read.element(instanceIndex).assign(uvec4(0));
+      this.read.element(instanceIndex).assign(uvec2(0));
     })().compute(1);
   }
 
@@ -279,23 +280,25 @@ class Core {
   }
 
   transmittance(given, read) {
-    const first = this.pixel.mul(this.vectors);
-    const cores = Array.from({ length: this.vectors }, (_, i) => [`core${i}`, this.read.element(first.add(i))]);
+    const first = this.pixel.mul(this.pairs);
+    const pair = (i) => (i < this.pairs ? this.read.element(first.add(i)) : uvec2(0));
+    const vectors = Math.ceil(this.pairs / 2);
+    const cores = Array.from({ length: vectors }, (_, i) => [`core${i}`, uvec4(pair(2 * i), pair(2 * i + 1))]);
     const left = { sums0: read("sums0"), sums1: read("sums1"), ...Object.fromEntries(cores) };
     return wgslFn(corePass2(cores.map(([name]) => name)), [this.source])({ ...given, ...left });
   }
 
   begin(renderer, { width, height, depthTexture }) {
     const { type, format } = depthTexture;
-    const count = width * height * this.vectors;
+    const count = width * height * this.pairs;
     if (this.columns.value !== width || this.clear.count !== count) {
       const most = renderer.backend.device.limits.maxStorageBufferBindingSize;
-      if (16 * count > most) {
+      if (8 * count > most) {
         const pixels = `${width} x ${height} pixels`;
-        throw new Error(`nmtPass: the core of ${pixels} takes ${16 * count} bytes, the device binds ${most}.`);
+        throw new Error(`nmtPass: the core of ${pixels} takes ${8 * count} bytes, the device binds ${most}.`);
       }
       this.free();
-      this.written.value = this.read.value = new StorageBufferAttribute(count, 4, Uint32Array);
+      this.written.value = this.read.value = new StorageBufferAttribute(count, 2, Uint32Array);
       this.clear.count = count;
       this.columns.value = width;
       Object.assign(this.depth, { type, format });

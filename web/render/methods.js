@@ -61,7 +61,7 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
 /** A network whose pass 1 keeps single fragments by atomics: both ends, the heaviest of the rest, and sums over all. */
 function core(name, title, heavy, note) {
   const vectors = Math.ceil((heavy + 2) / 4);
-  const read = (i) => [0, 1, 2, 3].map((k) => `slots[first + ${4 * i + k}u]`).join(", ");
+  const read = (i) => [0, 1, 2, 3].map((k) => (4 * i + k < heavy + 2 ? `slots[first + ${4 * i + k}u]` : "0u")).join(", ");
   const kept = Array.from({ length: vectors }, (_, i) => `vec4<u32>(${read(i)})`);
   return {
     name,
@@ -69,7 +69,7 @@ function core(name, title, heavy, note) {
     note: `both ends and the ${heavy} heaviest other fragments one by one, the rest as four moments; ${note}`,
     kind: "blended",
     bits: 6 * 32 + (heavy + 2) * 32,
-    slots: 4 * vectors,
+    slots: heavy + 2,
     functions: [`shaders/${name}/${name}.chain.wgsl`],
     // The slots stand in the page's own group.
     fill: { "@group(3) @binding(0) var<storage": "@group(1) @binding(8) var<storage" },

@@ -1,7 +1,7 @@
 // Direct3D, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
 // Factors ONE, D3D12_BLEND_OP_ADD; target DXGI_FORMAT_R16G16B16A16_FLOAT or R32G32B32A32_FLOAT, cleared to 0. Textures:
-// the targets of pass 1; behind them the buffer of pass 1, as vectors.
+// the targets of pass 1; behind them the buffer of pass 1, as pairs.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.
@@ -446,7 +446,7 @@ cbuffer Frame : register(b0) {
 
 Texture2D<float4> sums0_texture : register(t0);
 Texture2D<float4> sums1_texture : register(t1);
-StructuredBuffer<uint4> core : register(t2);
+StructuredBuffer<uint2> core : register(t2);
 
 struct Varying {
     float4 position : SV_Position;
@@ -458,12 +458,12 @@ float4 pass2(Varying input) : SV_Target {
     NmtCodes codes = nmt_core_codes(v_range.x, v_range.y);
     uint2 steps = nmt_core_steps(input.v, nmt_core_absorbance_of(input.color.a), codes);
     uint2 pixel = uint2(input.position.xy);
-    uint first = 2u * (pixel.y * width + pixel.x);
+    uint first = 4u * (pixel.y * width + pixel.x);
     int3 at = int3(pixel, 0);
     float4 sums0 = sums0_texture.Load(at);
     float4 sums1 = sums1_texture.Load(at);
     float4 moments = float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float T = nmt_core_transmittance(steps, codes, core[first], core[first + 1u], sums1.y, sums0.x, moments);
+    float T = nmt_core_transmittance(steps, codes, uint4(core[first], core[first + 1u]), uint4(core[first + 2u], core[first + 3u]), sums1.y, sums0.x, moments);
     float weight = input.color.a * T;
     return float4(weight * input.color.rgb, weight);
 }

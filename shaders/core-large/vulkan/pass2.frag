@@ -454,17 +454,17 @@ layout(set = 0, binding = 0) uniform sampler2D sums0_texture;
 layout(set = 0, binding = 1) uniform sampler2D sums1_texture;
 #define NMT_LOAD(name) texelFetch(name, ivec2(gl_FragCoord.xy), 0)
 #endif
-layout(std430, set = 0, binding = 2) readonly buffer Cores { uvec4 core[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Cores { uvec2 core[]; };
 
 void main() {
     NmtCodes codes = nmt_core_codes(frame.v_range.x, frame.v_range.y);
     uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(color.a), codes);
     uvec2 at = uvec2(gl_FragCoord.xy);
-    uint first = 2u * (at.y * frame.width + at.x);
+    uint first = 4u * (at.y * frame.width + at.x);
     vec4 sums0 = NMT_LOAD(sums0_texture);
     vec4 sums1 = NMT_LOAD(sums1_texture);
     vec4 moments = vec4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float T = nmt_core_transmittance(steps, codes, core[first], core[first + 1u], sums1.y, sums0.x, moments);
+    float T = nmt_core_transmittance(steps, codes, uvec4(core[first], core[first + 1u]), uvec4(core[first + 2u], core[first + 3u]), sums1.y, sums0.x, moments);
     float weight = color.a * T;
     weighted = vec4(weight * color.rgb, weight);
 }

@@ -35,7 +35,7 @@ struct Frame {
     float v1;
     uint width;
 };
-typedef metal::uint4 NmtType14[1];
+typedef metal::uint2 NmtType14[1];
 struct Varying {
     metal::float4 position;
     float v;
@@ -384,12 +384,13 @@ fragment pass2_Output pass2(
     metal::uint2 _e12 = nmt_core_steps(in.v, _e11, _e7);
     metal::uint2 at_1 = naga_f2u32(in.position.xy);
     uint _e20 = frame.width;
-    uint first_1 = 1u * ((at_1.y * _e20) + at_1.x);
+    uint first_1 = 2u * ((at_1.y * _e20) + at_1.x);
     metal::float4 sums0 = sums0_texture.read(metal::uint2(at_1), 0);
     metal::float4 sums1 = sums1_texture.read(metal::uint2(at_1), 0);
     metal::float4 moments_2 = metal::float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    metal::uint4 _e38 = core[first_1];
-    float _e41 = nmt_core_transmittance(_e12, _e7, _e38, sums1.y, sums0.x, moments_2);
-    float weight = in.color.w * _e41;
+    metal::uint2 _e38 = core[first_1];
+    metal::uint2 _e43 = core[first_1 + 1u];
+    float _e47 = nmt_core_transmittance(_e12, _e7, metal::uint4(_e38, _e43), sums1.y, sums0.x, moments_2);
+    float weight = in.color.w * _e47;
     return pass2_Output { metal::float4(weight * in.color.xyz, weight) };
 }

@@ -299,17 +299,17 @@ layout(location = 0) uniform vec2 v_range;
 layout(location = 1) uniform uint width;
 layout(binding = 0) uniform sampler2D sums0_texture;
 layout(binding = 1) uniform sampler2D sums1_texture;
-layout(std430, binding = 0) readonly buffer Cores { uvec4 core[]; };
+layout(std430, binding = 0) readonly buffer Cores { uvec2 core[]; };
 
 void main() {
     NmtCodes codes = nmt_core_codes(v_range.x, v_range.y);
     uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(color.a), codes);
     ivec2 at = ivec2(gl_FragCoord.xy);
-    uint first = 1u * (uint(at.y) * width + uint(at.x));
+    uint first = 2u * (uint(at.y) * width + uint(at.x));
     vec4 sums0 = texelFetch(sums0_texture, at, 0);
     vec4 sums1 = texelFetch(sums1_texture, at, 0);
     vec4 moments = vec4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float T = nmt_core_transmittance(steps, codes, core[first], sums1.y, sums0.x, moments);
+    float T = nmt_core_transmittance(steps, codes, uvec4(core[first], core[first + 1u]), sums1.y, sums0.x, moments);
     float weight = color.a * T;
     weighted = vec4(weight * color.rgb, weight);
 }

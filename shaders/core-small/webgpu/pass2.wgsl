@@ -1,7 +1,7 @@
 // WebGPU, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
 // Target 0: rgba16float or rgba32float, blend add, factors one and one, cleared to 0.
-// Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as vectors.
+// Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as pairs.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
@@ -291,7 +291,7 @@ struct Frame {
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var sums0_texture: texture_2d<f32>;
 @group(1) @binding(1) var sums1_texture: texture_2d<f32>;
-@group(1) @binding(2) var<storage, read> core: array<vec4<u32>>;
+@group(1) @binding(2) var<storage, read> core: array<vec2<u32>>;
 
 struct Varying {
     @invariant @builtin(position) position: vec4<f32>,
@@ -304,11 +304,11 @@ fn pass2(in: Varying) -> @location(0) vec4<f32> {
     let codes = nmt_core_codes(frame.v0, frame.v1);
     let steps = nmt_core_steps(in.v, nmt_core_absorbance_of(in.color.a), codes);
     let at = vec2<u32>(in.position.xy);
-    let first = 1u * (at.y * frame.width + at.x);
+    let first = 2u * (at.y * frame.width + at.x);
     let sums0 = textureLoad(sums0_texture, at, 0);
     let sums1 = textureLoad(sums1_texture, at, 0);
     let moments = vec4<f32>(sums0.y, sums0.z, sums0.w, sums1.x);
-    let T = nmt_core_transmittance(steps, codes, core[first], sums1.y, sums0.x, moments);
+    let T = nmt_core_transmittance(steps, codes, vec4<u32>(core[first], core[first + 1u]), sums1.y, sums0.x, moments);
     let weight = in.color.a * T;
     return vec4<f32>(weight * in.color.rgb, weight);
 }

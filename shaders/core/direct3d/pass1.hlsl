@@ -3,7 +3,7 @@
 // Factors ONE, D3D12_BLEND_OP_ADD.
 // Target 0: DXGI_FORMAT_R32G32B32A32_FLOAT, cleared to 0.
 // Target 1: DXGI_FORMAT_R32G32_FLOAT, cleared to 0.
-// Buffer u2, behind the targets, whose slots Direct3D 11 shares with it: 8 words a pixel, cleared to 0.
+// Buffer u2, behind the targets, whose slots Direct3D 11 shares with it: 6 words a pixel, cleared to 0.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
@@ -14,7 +14,7 @@ static const uint NMT_DEPTH_BITS = 16u;
 static const uint NMT_OCTAVE_BITS = 11u;
 static const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-static const uint NMT_SLOTS = 8u;
+static const uint NMT_SLOTS = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 static const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.

@@ -1,7 +1,7 @@
 // Direct3D, pass 2: draw every transparent surface again, with the same vertices and the same vertex shader.
 //
 // Factors ONE, D3D12_BLEND_OP_ADD; target DXGI_FORMAT_R16G16B16A16_FLOAT or R32G32B32A32_FLOAT, cleared to 0. Textures:
-// the targets of pass 1; behind them the buffer of pass 1, as vectors.
+// the targets of pass 1; behind them the buffer of pass 1, as pairs.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
@@ -113,7 +113,7 @@ static const uint NMT_DEPTH_BITS = 16u;
 static const uint NMT_OCTAVE_BITS = 11u;
 static const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-static const uint NMT_SLOTS = 8u;
+static const uint NMT_SLOTS = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 static const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.
@@ -366,7 +366,7 @@ cbuffer Frame : register(b0) {
 
 Texture2D<float4> sums0_texture : register(t0);
 Texture2D<float4> sums1_texture : register(t1);
-StructuredBuffer<uint4> core : register(t2);
+StructuredBuffer<uint2> core : register(t2);
 
 struct Varying {
     float4 position : SV_Position;
@@ -378,12 +378,12 @@ float4 pass2(Varying input) : SV_Target {
     NmtCodes codes = nmt_core_codes(v_range.x, v_range.y);
     uint2 steps = nmt_core_steps(input.v, nmt_core_absorbance_of(input.color.a), codes);
     uint2 pixel = uint2(input.position.xy);
-    uint first = 2u * (pixel.y * width + pixel.x);
+    uint first = 3u * (pixel.y * width + pixel.x);
     int3 at = int3(pixel, 0);
     float4 sums0 = sums0_texture.Load(at);
     float4 sums1 = sums1_texture.Load(at);
     float4 moments = float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float T = nmt_core_transmittance(steps, codes, core[first], core[first + 1u], sums1.y, sums0.x, moments);
+    float T = nmt_core_transmittance(steps, codes, uint4(core[first], core[first + 1u]), uint4(core[first + 2u], 0u, 0u), sums1.y, sums0.x, moments);
     float weight = input.color.a * T;
     return float4(weight * input.color.rgb, weight);
 }

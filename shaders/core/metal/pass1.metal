@@ -2,7 +2,7 @@
 //
 // Target 0: rgba32float, blend add, factors one and one, cleared to 0.
 // Target 1: rg32float, blend add, factors one and one, cleared to 0.
-// Buffer 2: 8 words a pixel, cleared to 0. Buffer 0: the uniforms.
+// Buffer 2: 6 words a pixel, cleared to 0. Buffer 0: the uniforms.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
@@ -41,7 +41,7 @@ struct Targets {
 constant uint NMT_DEPTH_BITS = 16u;
 constant uint NMT_OCTAVE_BITS = 11u;
 constant uint NMT_HEAVY = 4u;
-constant uint NMT_SLOTS = 8u;
+constant uint NMT_SLOTS = 6u;
 constant float NMT_KEY_SCALE = 0.625;
 constant uint NMT_LAST_ABSORBANCE = 27136u;
 constant uint NMT_LAST_DEPTH = 65535u;

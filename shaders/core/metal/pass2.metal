@@ -35,7 +35,7 @@ struct Frame {
     float v1;
     uint width;
 };
-typedef metal::uint4 NmtType14[1];
+typedef metal::uint2 NmtType14[1];
 struct Varying {
     metal::float4 position;
     float v;
@@ -50,7 +50,7 @@ constant float NMT_B3 = -2.3455548;
 constant uint NMT_DEPTH_BITS = 16u;
 constant uint NMT_OCTAVE_BITS = 11u;
 constant uint NMT_HEAVY = 4u;
-constant uint NMT_SLOTS = 8u;
+constant uint NMT_SLOTS = 6u;
 constant float NMT_KEY_SCALE = 0.625;
 constant uint NMT_LAST_ABSORBANCE = 27136u;
 constant uint NMT_LAST_DEPTH = 65535u;
@@ -428,13 +428,14 @@ fragment pass2_Output pass2(
     metal::uint2 _e12 = nmt_core_steps(in.v, _e11, _e7);
     metal::uint2 at_1 = naga_f2u32(in.position.xy);
     uint _e20 = frame.width;
-    uint first_1 = 2u * ((at_1.y * _e20) + at_1.x);
+    uint first_1 = 3u * ((at_1.y * _e20) + at_1.x);
     metal::float4 sums0 = sums0_texture.read(metal::uint2(at_1), 0);
     metal::float4 sums1 = sums1_texture.read(metal::uint2(at_1), 0);
     metal::float4 moments_2 = metal::float4(sums0.y, sums0.z, sums0.w, sums1.x);
-    metal::uint4 _e38 = core[first_1];
-    metal::uint4 _e43 = core[first_1 + 1u];
-    float _e46 = nmt_core_transmittance(_e12, _e7, _e38, _e43, sums1.y, sums0.x, moments_2);
-    float weight = in.color.w * _e46;
+    metal::uint2 _e38 = core[first_1];
+    metal::uint2 _e43 = core[first_1 + 1u];
+    metal::uint2 _e49 = core[first_1 + 2u];
+    float _e55 = nmt_core_transmittance(_e12, _e7, metal::uint4(_e38, _e43), metal::uint4(_e49, 0u, 0u), sums1.y, sums0.x, moments_2);
+    float weight = in.color.w * _e55;
     return pass2_Output { metal::float4(weight * in.color.xyz, weight) };
 }

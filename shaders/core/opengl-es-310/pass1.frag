@@ -4,7 +4,7 @@
 // glBlendFunc(GL_ONE, GL_ONE); glBlendEquation(GL_FUNC_ADD).
 // Target 0: GL_RGBA32F, cleared to 0.
 // Target 1: GL_RG32F, cleared to 0.
-// Storage buffer at binding 0: 8 words a pixel, cleared to 0; a barrier with GL_SHADER_STORAGE_BARRIER_BIT between
+// Storage buffer at binding 0: 6 words a pixel, cleared to 0; a barrier with GL_SHADER_STORAGE_BARRIER_BIT between
 // the passes.
 //
 precision highp float;
@@ -19,7 +19,7 @@ const uint NMT_DEPTH_BITS = 16u;
 const uint NMT_OCTAVE_BITS = 11u;
 const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-const uint NMT_SLOTS = 8u;
+const uint NMT_SLOTS = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.

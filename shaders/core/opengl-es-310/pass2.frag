@@ -118,7 +118,7 @@ const uint NMT_DEPTH_BITS = 16u;
 const uint NMT_OCTAVE_BITS = 11u;
 const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-const uint NMT_SLOTS = 8u;
+const uint NMT_SLOTS = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.
@@ -371,17 +371,17 @@ layout(location = 0) uniform vec2 v_range;
 layout(location = 1) uniform uint width;
 layout(binding = 0) uniform sampler2D sums0_texture;
 layout(binding = 1) uniform sampler2D sums1_texture;
-layout(std430, binding = 0) readonly buffer Cores { uvec4 core[]; };
+layout(std430, binding = 0) readonly buffer Cores { uvec2 core[]; };
 
 void main() {
     NmtCodes codes = nmt_core_codes(v_range.x, v_range.y);
     uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(color.a), codes);
     ivec2 at = ivec2(gl_FragCoord.xy);
-    uint first = 2u * (uint(at.y) * width + uint(at.x));
+    uint first = 3u * (uint(at.y) * width + uint(at.x));
     vec4 sums0 = texelFetch(sums0_texture, at, 0);
     vec4 sums1 = texelFetch(sums1_texture, at, 0);
     vec4 moments = vec4(sums0.y, sums0.z, sums0.w, sums1.x);
-    float T = nmt_core_transmittance(steps, codes, core[first], core[first + 1u], sums1.y, sums0.x, moments);
+    float T = nmt_core_transmittance(steps, codes, uvec4(core[first], core[first + 1u]), uvec4(core[first + 2u], 0u, 0u), sums1.y, sums0.x, moments);
     float weight = color.a * T;
     weighted = vec4(weight * color.rgb, weight);
 }

@@ -4,7 +4,7 @@
 // All blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD.
 // Target 0: VK_FORMAT_R32G32B32A32_SFLOAT, cleared to 0.
 // Target 1: VK_FORMAT_R32G32_SFLOAT, cleared to 0.
-// Storage buffer at binding 2 of set 0 (feature fragmentStoresAndAtomics): 8 words a pixel, cleared to 0;
+// Storage buffer at binding 2 of set 0 (feature fragmentStoresAndAtomics): 6 words a pixel, cleared to 0;
 // between the passes a barrier from VK_ACCESS_SHADER_WRITE_BIT to VK_ACCESS_SHADER_READ_BIT of the fragment stage.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
@@ -16,7 +16,7 @@ const uint NMT_DEPTH_BITS = 16u;
 const uint NMT_OCTAVE_BITS = 11u;
 const uint NMT_HEAVY = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-const uint NMT_SLOTS = 8u;
+const uint NMT_SLOTS = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const float NMT_KEY_SCALE = 0.625;
 // The last step of absorbance, that of A = 10.

@@ -5,7 +5,7 @@
 //
 // Target 0: rgba32float, blend add, factors one and one, cleared to 0.
 // Target 1: rg32float, blend add, factors one and one, cleared to 0.
-// Buffer of group 3: 8 words a pixel, cleared to 0.
+// Buffer of group 3: 6 words a pixel, cleared to 0.
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
@@ -16,7 +16,7 @@ const NMT_DEPTH_BITS: u32 = 16u;
 const NMT_OCTAVE_BITS: u32 = 11u;
 const NMT_HEAVY: u32 = 4u;
 // Slots of a pixel, empty ones at the end among them, a multiple of four.
-const NMT_SLOTS: u32 = 8u;
+const NMT_SLOTS: u32 = 6u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const NMT_KEY_SCALE: f32 = 0.625;
 // The last step of absorbance, that of A = 10.

@@ -16,7 +16,7 @@ pub use weigh::{MAX_SHADER_MOMENTS, known_fragments, weigh, weigh_by_network};
 
 use crate::export::{Format, Target};
 use crate::features::core::CoreSet;
-use crate::numeric::source::Dialect;
+use crate::numeric::source::{Dialect, Type};
 
 /// The languages that a core is written in: WGSL, GLSL 4.30 and ES 3.10, HLSL of shader model 5.
 pub const LANGUAGES: [Target; 3] = [Target::Wgsl, Target::Glsl, Target::Hlsl];
@@ -83,9 +83,26 @@ impl CoreBinding {
     pub const DEFAULT: Self = Self { group: 3, binding: 0 };
 }
 
-/// Slots of a pixel in a shader's buffer, so many that they can be read four at a time.
+/// Slots of a pixel in a shader's buffer, so many that they can be read two at a time.
 pub fn stride(set: CoreSet) -> usize {
-    set.slots().next_multiple_of(4)
+    set.slots().next_multiple_of(2)
+}
+
+/// Vectors of four slots that `nmt_core_transmittance` takes.
+pub fn vectors(set: CoreSet) -> usize {
+    set.slots().div_ceil(4)
+}
+
+/// A pixel's slots as those vectors, from the expressions of its pairs of words.
+pub fn gathered(set: CoreSet, language: Target, pair: &dyn Fn(usize) -> String) -> String {
+    let vector = |i: usize| {
+        let second = match 2 * i + 1 < stride(set) / 2 {
+            true => pair(2 * i + 1),
+            false => "0u, 0u".to_owned(),
+        };
+        format!("{}({}, {second})", dialect(language).type_name(Type::Word4), pair(2 * i))
+    };
+    (0..vectors(set)).map(vector).collect::<Vec<_>>().join(", ")
 }
 
 /// Codes of fragments: constants, `NmtCodes`, `nmt_core_codes`, `nmt_core_steps`, what steps stand for, and codes of
@@ -125,11 +142,13 @@ mod tests {
     }
 
     #[test]
-    fn pixels_start_at_multiples_of_four_slots() {
-        assert_eq!(
-            [0, 2, 3, 6, 8].map(|heavy| stride(CoreSet::new(heavy, 2))),
-            [4, 4, 8, 8, 12]
-        );
+    fn slots_are_read_in_pairs_and_handed_on_in_fours() {
+        let of = |f: fn(CoreSet) -> usize| [0, 2, 3, 4, 6, 8].map(|heavy| f(CoreSet::new(heavy, 2)));
+        assert_eq!(of(stride), [2, 4, 6, 6, 8, 10]);
+        assert_eq!(of(vectors), [1, 1, 2, 2, 2, 3]);
+        let text = |heavy| gathered(CoreSet::new(heavy, 2), Target::Glsl, &|i| format!("p{i}"));
+        assert_eq!(text(4), "uvec4(p0, p1), uvec4(p2, 0u, 0u)");
+        assert_eq!(text(2), "uvec4(p0, p1)");
     }
 
     /// WGSL is valid for naga at every K and M; control: a chain without its codes is not.

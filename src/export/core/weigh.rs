@@ -3,7 +3,7 @@
 //! The formulas are those of [`crate::features::core::formulas`], written out by the expressions of [`Source`]; only
 //! the slots are unpacked by text.
 
-use super::{dialect, piece, stride};
+use super::{dialect, piece, vectors};
 use crate::export::Target;
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
@@ -64,7 +64,7 @@ fn whole(set: CoreSet, language: Target, tail: Tail) -> String {
         _ => on_numbers::<5>(set, language, tail),
     };
     let text = piece(language, include_str!("weigh.wgsl"), include_str!("weigh.glsl"));
-    let vectors = stride(set) / 4;
+    let vectors = vectors(set);
     let dialect = dialect(language);
     let parameter = |of: Type, name: &str| dialect.parameter(&dialect.type_name(of), name);
     let mut parameters = vec![parameter(Type::Word2, "steps"), dialect.parameter("NmtCodes", "codes")];
@@ -240,7 +240,7 @@ pub fn weigh_by_mlp<const N: usize>(
 
 /// `nmt_core_weigh`: the formulas on numbers.
 fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> String {
-    let vectors = stride(set) / 4;
+    let vectors = vectors(set);
     let names: Vec<[String; 2]> = (0..vectors)
         .map(|i| [format!("depths{i}"), format!("absorbances{i}")])
         .collect();

@@ -118,7 +118,7 @@ impl State {
             "0.0, 1.0, 1.0, 0.0, 0.0".to_owned()
         };
         let core = self.core.map_or(String::new(), |_| {
-            format!("\n@group(0) @binding({binding}) var<storage, read> oit_core: array<vec4<u32>>;\n\n")
+            format!("\n@group(0) @binding({binding}) var<storage, read> oit_core: array<vec2<u32>>;\n\n")
         });
         let text = include_str!("state.wgsl")
             .replace("OIT_CORE_MEMBER", &core::member(self.core))

@@ -2,8 +2,8 @@
 // the moment depth z and the absorbance that the steps stand for.
 struct OitFragment { v: f32, z: f32, alpha: f32, absorbance: f32, steps: vec2<u32> }
 
-// What pass 1 left in a pixel: sums, of which the last is how many fragments absorb, and the slots of the core, four to a
-// vector. Number and range of its fragments are not kept.
+// What pass 1 left in a pixel: sums, of which the last is how many fragments absorb, and the slots of the core in
+// pairs. Number and range of its fragments are not kept.
 struct OitPixel {
     sums: array<f32, OIT_SUMS>,
     n: f32,
@@ -11,7 +11,7 @@ struct OitPixel {
     farthest: f32,
     z_nearest: f32,
     z_farthest: f32,
-    core: array<vec4<u32>, OIT_CORE>,
+    core: array<vec2<u32>, OIT_CORE>,
 }
 
 fn oit_codes() -> NmtCodes {

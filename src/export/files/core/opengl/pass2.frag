@@ -16,13 +16,13 @@ layout(location = 0) out vec4 weighted;
 {uniform0}uniform vec2 v_range;
 {uniform1}uniform uint width;
 %sums {binding{i}}uniform sampler2D sums{i}_texture;
-layout(std430, binding = 0) readonly buffer Cores { uvec4 core[]; };
+layout(std430, binding = 0) readonly buffer Cores { uvec2 core[]; };
 
 void main() {
     NmtCodes codes = nmt_core_codes(v_range.x, v_range.y);
     uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(color.a), codes);
     ivec2 at = ivec2(gl_FragCoord.xy);
-    uint first = {vectors}u * (uint(at.y) * width + uint(at.x));
+    uint first = {pairs}u * (uint(at.y) * width + uint(at.x));
 %sums     vec4 sums{i} = texelFetch(sums{i}_texture, at, 0);
     vec4 moments = vec4({moments});
     float T = nmt_core_transmittance(steps, codes, {slots}, {n}, {b0}, moments);

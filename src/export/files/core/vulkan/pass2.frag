@@ -18,13 +18,13 @@ layout(push_constant) uniform Frame { vec2 v_range; uint width; } frame;
 %sums layout(set = 0, binding = {i}) uniform sampler2D sums{i}_texture;
 #define NMT_LOAD(name) texelFetch(name, ivec2(gl_FragCoord.xy), 0)
 #endif
-layout(std430, set = 0, binding = {range}) readonly buffer Cores { uvec4 core[]; };
+layout(std430, set = 0, binding = {range}) readonly buffer Cores { uvec2 core[]; };
 
 void main() {
     NmtCodes codes = nmt_core_codes(frame.v_range.x, frame.v_range.y);
     uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(color.a), codes);
     uvec2 at = uvec2(gl_FragCoord.xy);
-    uint first = {vectors}u * (at.y * frame.width + at.x);
+    uint first = {pairs}u * (at.y * frame.width + at.x);
 %sums     vec4 sums{i} = NMT_LOAD(sums{i}_texture);
     vec4 moments = vec4({moments});
     float T = nmt_core_transmittance(steps, codes, {slots}, {n}, {b0}, moments);
