@@ -6,7 +6,7 @@
 // tilers keep on chip.
 //
 // Neural moment transparency: network 'moments-6', 9-32-16-1, 816 multiply-adds.
-// Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 600, dataset 37f23ca23c85cddd29cc28c82e42ad387652d607b62fdde6a7e9a18fca6b8f75.
+// Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 600, dataset 37f23ca23c85cddd29cc28c82e42ad387652d607b62fdde6a7e9a18fca6b8f75.
 // Measured on fresh pixels of the training distribution: mean squared error of T 2.305e-3, worst 0.995.
 
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.

@@ -6,7 +6,7 @@
 // Target 2: DXGI_FORMAT_R32G32_FLOAT, cleared to -3e38.
 //
 // Neural moment transparency: network 'paper', 7-32-16-1, 752 multiply-adds.
-// Provenance: nmt 0.1.0, commit 8de7fe4179b9-modified, backend fused, seed 1, epochs 1000, dataset 7efe7a15adf78c7d3c08d1766f86933c7206479e931a41fb0eb5cd099252fcd5.
+// Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 1000, dataset 7efe7a15adf78c7d3c08d1766f86933c7206479e931a41fb0eb5cd099252fcd5.
 // Measured on fresh pixels of the training distribution: mean squared error of T 5.094e-3, worst 0.657.
 
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.

@@ -6,7 +6,7 @@
 // tilers keep on chip.
 //
 // Neural moment transparency: network 'recommended', 7-32-16-1, 752 multiply-adds.
-// Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 3 x 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
+// Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 3 x 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
 // Measured on fresh pixels of the training distribution: mean squared error of T 2.438e-3, worst 0.994.
 
 // Absorbance of a fragment, min(-ln(1 - alpha), 10), accurate for faint fragments too.

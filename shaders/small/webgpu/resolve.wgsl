@@ -4,7 +4,7 @@
 // Textures of group 0: target 0 of pass 1, then the target of pass 2.
 //
 // Neural moment transparency: network 'small', 7-16-8-1, 248 multiply-adds.
-// Provenance: nmt 0.1.0, commit a3706793e652-modified, backend fused, seed 1, epochs 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
+// Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.
 // Measured on fresh pixels of the training distribution: mean squared error of T 2.593e-3, worst 0.995.
 
 // Resolve: what lies over the background, of the sum that pass 2 has made, and in alpha how much of the background
