@@ -41,7 +41,6 @@ import {
   textureLoad,
   uniform,
   uvec2,
-  uvec2,
   uvec4,
   vec4,
   wgsl,
