@@ -6,7 +6,7 @@ use crate::features::FeatureSet;
 use crate::model::file;
 use crate::model::mlp::name_for;
 use crate::numeric::file::Replace;
-use anyhow::bail;
+use anyhow::Context;
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -31,13 +31,7 @@ pub struct Import {
 
 impl Import {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let Some(set) = FeatureSet::ALL.into_iter().find(|s| s.name() == self.features) else {
-            bail!(
-                "--features '{}': known are {}",
-                self.features,
-                FeatureSet::ALL.map(FeatureSet::name).join(", ")
-            );
-        };
+        let set: FeatureSet = self.features.parse().context("--features")?;
         keep_inputs(&[&self.weights], &self.out)?;
         let name = self.name.unwrap_or_else(|| name_for(&self.out));
         let mlp = file::import(&self.weights, &name, set)?;

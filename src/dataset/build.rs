@@ -477,10 +477,16 @@ pub(crate) mod tests {
         let list = Synth::new(SynthConfig::wide(), 3)
             .unwrap()
             .pixels(Purpose::Training, 0, 1500);
-        let extractor = Extractor::for_list(FeatureSet::Core4x4, &list, None, None).unwrap();
+        let extractor = Extractor::for_list(
+            FeatureSet::Core(crate::features::core::Shape::new(4, 4)),
+            &list,
+            None,
+            None,
+        )
+        .unwrap();
         let made = rows(&list, &extractor).unwrap();
         assert!(made.len() > 1000 && made.weights.is_empty());
-        let width = FeatureSet::Core4x4.width();
+        let width = FeatureSet::Core(crate::features::core::Shape::new(4, 4)).width();
         let (mut compared, mut far, mut controls) = (0, 0, 0);
         // In thin pixels fragments share steps of depth, and rows are not told apart.
         let is_thick = |p: &usize| {

@@ -16,27 +16,36 @@ use crate::pixel::{FragmentList, abuffer};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
+use std::str::FromStr;
 
-/// Makes the enumeration of all feature sets of their names and their [`FeatureSpec`]s.
+/// Makes the enumeration of all feature sets of their names and their [`FeatureSpec`]s, then of cores by their numbers
+/// of heavy fragments and moments.
 macro_rules! feature_sets {
-    ($($(#[doc = $about:literal])* $name:ident => $spec:expr,)*) => {
+    ($($(#[doc = $about:literal])* $name:ident => $spec:expr,)*; $($heavy:literal $moments:literal,)*) => {
         /// A feature set: which numbers, in which order, of which moments.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum FeatureSet {
             $($(#[doc = $about])* $name,)*
+            /// K heavy fragments besides both ends, and M moments; see [`core`].
+            Core(core::Shape),
         }
 
         impl FeatureSet {
-            /// Every feature set.
-            pub const ALL: [Self; Self::NAMES.len()] = [$(Self::$name),*];
+            /// Every feature set, of those with a core the usual ones.
+            pub const ALL: [Self; Self::NAMES.len()] = [
+                $(Self::$name,)*
+                $(Self::Core(core::Shape::new($heavy, $moments)),)*
+            ];
 
             /// Their names, in the same order.
-            const NAMES: &'static [&'static str] = &[$($spec.name),*];
+            const NAMES: &'static [&'static str] =
+                &[$($spec.name,)* $(concat!("core-", $heavy, "-", $moments),)*];
 
             /// All that is to be known of it.
             pub fn spec(self) -> &'static FeatureSpec {
                 match self {
                     $(Self::$name => &$spec,)*
+                    Self::Core(shape) => shape.spec(),
                 }
             }
         }
@@ -54,7 +63,11 @@ macro_rules! feature_sets {
                         "const": $spec.name,
                         "description": concat!($($about),*).trim(),
                         "type": "string",
-                    }),*],
+                    },)* {
+                        "pattern": "^core-[0-8]-[1-6]$",
+                        "description": core::ABOUT,
+                        "type": "string",
+                    }],
                 })
             }
         }
@@ -72,20 +85,14 @@ feature_sets! {
     Recentred6 => recentred::SIX_MOMENTS,
     /// [`Self::Recentred`] with eight moments.
     Recentred8 => recentred::EIGHT_MOMENTS,
-    /// 2 heavy fragments besides both ends, and 4 moments; see [`core`].
-    Core2x4 => core::CORE_2_4,
-    /// 3 heavy fragments besides both ends, and 3 moments; see [`core`].
-    Core3x3 => core::CORE_3_3,
-    /// 4 heavy fragments besides both ends, and 2 moments; see [`core`].
-    Core4x2 => core::CORE_4_2,
-    /// 4 heavy fragments besides both ends, and 4 moments; see [`core`].
-    Core4x4 => core::CORE_4_4,
-    /// 6 heavy fragments besides both ends, and 2 moments; see [`core`].
-    Core6x2 => core::CORE_6_2,
-    /// 4 heavy fragments besides both ends, and 6 moments; see [`core`].
-    Core4x6 => core::CORE_4_6,
-    /// 6 heavy fragments besides both ends, and 4 moments; see [`core`].
-    Core6x4 => core::CORE_6_4,
+    ;
+    2 4,
+    3 3,
+    4 2,
+    4 4,
+    6 2,
+    4 6,
+    6 4,
 }
 
 impl Serialize for FeatureSet {
@@ -97,8 +104,24 @@ impl Serialize for FeatureSet {
 impl<'de> Deserialize<'de> for FeatureSet {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let name = Cow::<'de, str>::deserialize(deserializer)?;
+        name.parse().map_err(D::Error::custom)
+    }
+}
+
+/// A name that no feature set has.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("unknown feature set '{name}'; {}, {} are", FeatureSet::NAMES.join(", "), core::ABOUT)]
+pub struct UnknownFeatureSet {
+    name: String,
+}
+
+impl FromStr for FeatureSet {
+    type Err = UnknownFeatureSet;
+
+    fn from_str(name: &str) -> Result<Self, UnknownFeatureSet> {
         let set = Self::ALL.into_iter().find(|set| set.name() == name);
-        set.ok_or_else(|| D::Error::unknown_variant(&name, Self::NAMES))
+        set.or_else(|| core::Shape::named(name).map(Self::Core))
+            .ok_or_else(|| UnknownFeatureSet { name: name.to_owned() })
     }
 }
 
@@ -231,6 +254,28 @@ mod tests {
     use super::*;
     use crate::pixel::{CameraPlanes, DepthError, Pixel};
     use rand::RngExt;
+
+    /// Names parse back, those of cores that are not listed among them. Controls: cores beyond the bounds.
+    #[test]
+    fn names_parse_back() {
+        let cores =
+            (0..=8).flat_map(|heavy| (1..=6).map(move |moments| FeatureSet::Core(core::Shape::new(heavy, moments))));
+        for set in FeatureSet::ALL.into_iter().chain(cores) {
+            assert_eq!(set.name().parse(), Ok(set));
+        }
+        assert_eq!(FeatureSet::Core(core::Shape::new(8, 1)).name(), "core-8-1");
+        for wrong in [
+            "core-9-2",
+            "core-4-7",
+            "core-4-0",
+            "core-04-2",
+            "core-4",
+            "core--1-2",
+            "Core-4-2",
+        ] {
+            assert!(wrong.parse::<FeatureSet>().is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn names_are_those_of_files() {

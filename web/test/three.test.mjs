@@ -298,7 +298,7 @@ test("core: what is rejected or discarded is not in it, whatever the depth buffe
         through: Array.from((await draw("core", empty(), wall, few[0], through)).slice(0, 4)),
       };
     }
-    const huge = nmtPass(makeScene().scene, makeCamera(64 / 48), { network: "core" });
+    const huge = nmtPass(makeScene().scene, makeCamera(64 / 48), { network: "core-large" });
     huge.setResolutionScale(40);
     try {
       await frame(await open(64, 48), huge, 64, 48);

@@ -124,21 +124,7 @@ impl Common {
 
 /// Networks of the given sizes, on a feature set of that name where one is given.
 fn networks(texts: &[String], features: Option<&str>) -> anyhow::Result<Vec<Network>> {
-    let set = match features {
-        None => None,
-        Some(name) => Some(
-            FeatureSet::ALL
-                .into_iter()
-                .find(|set| set.name() == name)
-                .with_context(|| {
-                    let names: Vec<&str> = FeatureSet::ALL.iter().map(|set| set.name()).collect();
-                    format!(
-                        "--features '{name}': no such feature set; there are {}",
-                        names.join(", ")
-                    )
-                })?,
-        ),
-    };
+    let set: Option<FeatureSet> = features.map(str::parse).transpose().context("--features")?;
     let of = |text: &String| {
         let network: Network = text.parse().context("--network")?;
         set.map_or(Ok(network.clone()), |set| network.on(set))

@@ -100,7 +100,11 @@ pub fn gathered(set: CoreSet, language: Target, pair: &dyn Fn(usize) -> String) 
             true => pair(2 * i + 1),
             false => "0u, 0u".to_owned(),
         };
-        format!("{}({}, {second})", dialect(language).type_name(Type::Word4), pair(2 * i))
+        format!(
+            "{}({}, {second})",
+            dialect(language).type_name(Type::Word4),
+            pair(2 * i)
+        )
     };
     (0..vectors(set)).map(vector).collect::<Vec<_>>().join(", ")
 }

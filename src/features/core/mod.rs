@@ -117,7 +117,7 @@ impl CoreSet {
     }
 }
 
-const fn spec<const M: usize>(name: &'static str, answer: &'static str, heavy: usize) -> FeatureSpec {
+const fn spec<const M: usize>(name: &'static str, heavy: usize) -> FeatureSpec {
     let core = CoreSet::new(heavy, M);
     FeatureSpec {
         name,
@@ -151,7 +151,7 @@ const fn spec<const M: usize>(name: &'static str, answer: &'static str, heavy: u
             write_features: write_features::<M>,
             write_answers: |_| (),
             arguments: columns(0),
-            answer,
+            answer: "nmt_transmittance(nmt_features(HEAD, TAIL))",
         },
     }
 }
@@ -172,23 +172,51 @@ fn write_features<const M: usize>(source: &Source) {
     source.return_numbers(&row);
 }
 
-/// 2 heavy fragments, 4 moments: 304 bits.
-pub const CORE_2_4: FeatureSpec = spec::<4>("core-2-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 2);
+/// What names of feature sets with a core are.
+pub const ABOUT: &str = "core-K-M with K heavy fragments besides both ends, 0 to 8, and M moments, 1 to 6";
 
-/// 3 heavy fragments, 3 moments: 304 bits.
-pub const CORE_3_3: FeatureSpec = spec::<3>("core-3-3", "nmt_transmittance(nmt_features(HEAD, TAIL))", 3);
+/// A feature set with a core: which K and which M.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shape {
+    heavy: usize,
+    moments: usize,
+}
 
-/// 4 heavy fragments, 2 moments: 304 bits.
-pub const CORE_4_2: FeatureSpec = spec::<2>("core-4-2", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
+impl Shape {
+    /// K heavy fragments and M moments.
+    ///
+    /// # Panics
+    /// If there are too many of either, or no moments.
+    pub const fn new(heavy: usize, moments: usize) -> Self {
+        assert!(heavy <= code::MAX_HEAVY && 1 <= moments && moments <= MAX_MOMENTS);
+        Self { heavy, moments }
+    }
 
-/// 4 heavy fragments, 4 moments: 368 bits.
-pub const CORE_4_4: FeatureSpec = spec::<4>("core-4-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
+    /// The one of this name; none where it is no such name.
+    pub fn named(name: &str) -> Option<Self> {
+        let mut specs = SPECS.iter().flatten();
+        let core = specs.find(|spec| spec.name == name)?.core?;
+        Some(Self::new(core.heavy, core.moments))
+    }
 
-/// 6 heavy fragments, 2 moments: 368 bits.
-pub const CORE_6_2: FeatureSpec = spec::<2>("core-6-2", "nmt_transmittance(nmt_features(HEAD, TAIL))", 6);
+    /// All that is to be known of it.
+    pub fn spec(self) -> &'static FeatureSpec {
+        &SPECS[self.heavy][self.moments - 1]
+    }
+}
 
-/// 4 heavy fragments, 6 moments: 432 bits.
-pub const CORE_4_6: FeatureSpec = spec::<6>("core-4-6", "nmt_transmittance(nmt_features(HEAD, TAIL))", 4);
+macro_rules! specs {
+    ($($heavy:literal)*) => {
+        [$([
+            spec::<1>(concat!("core-", $heavy, "-1"), $heavy),
+            spec::<2>(concat!("core-", $heavy, "-2"), $heavy),
+            spec::<3>(concat!("core-", $heavy, "-3"), $heavy),
+            spec::<4>(concat!("core-", $heavy, "-4"), $heavy),
+            spec::<5>(concat!("core-", $heavy, "-5"), $heavy),
+            spec::<6>(concat!("core-", $heavy, "-6"), $heavy),
+        ]),*]
+    };
+}
 
-/// 6 heavy fragments, 4 moments: 432 bits.
-pub const CORE_6_4: FeatureSpec = spec::<4>("core-6-4", "nmt_transmittance(nmt_features(HEAD, TAIL))", 6);
+/// Every feature set with a core, by K and by M - 1.
+static SPECS: [[FeatureSpec; MAX_MOMENTS]; code::MAX_HEAVY + 1] = specs!(0 1 2 3 4 5 6 7 8);

@@ -243,7 +243,7 @@ fn bad_benchmarks() {
         (&["train", "--batch", "0"], "--batch 0: must be"),
         (&["train", "--batch", "24"], "multiple of 16"),
         (&["train", "--backend", "abacus"], "abacus"),
-        (&["train", "--features", "mine"], "no such feature set"),
+        (&["train", "--features", "mine"], "unknown feature set 'mine'"),
         (
             &["train", "--features", "recentred-8"],
             "takes 7 features, but the rows have 11",
