@@ -5,7 +5,7 @@ use super::{Verdict, keep_inputs, shown};
 use crate::numeric::file::{Replace, may_write};
 use crate::oit::Context;
 use crate::pixel::{CameraPlanes, DepthWarning, FragmentList};
-use crate::scene::{self, BUILT_IN, Camera, Options, SceneError, SceneFile, exr, npz};
+use crate::scene::{self, BUILT_IN, Camera, ListFormat, Options, SceneError, SceneFile};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use serde_json::json;
@@ -103,8 +103,7 @@ impl SceneOptions {
 
 /// Whether a name is that of a file which holds fragments, and no scene.
 fn is_list(name: &OsStr) -> bool {
-    let list = |e: &OsStr| e.eq_ignore_ascii_case("npz") || e.eq_ignore_ascii_case("exr");
-    Path::new(name).extension().is_some_and(list) && !is_built_in(name)
+    ListFormat::of(Path::new(name)).is_ok() && !is_built_in(name)
 }
 
 fn is_built_in(name: &OsStr) -> bool {
@@ -213,17 +212,7 @@ impl Scene {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         keep_inputs(&[Path::new(&self.scene)], &self.out)?;
         may_write(&self.out, replace)?;
-        let deep = match self
-            .out
-            .extension()
-            .and_then(|e| e.to_str())
-            .map(str::to_ascii_lowercase)
-            .as_deref()
-        {
-            Some("npz") => false,
-            Some("exr") => true,
-            _ => return Err(SceneError::UnknownFormat { path: self.out }).context("--out"),
-        };
+        let format = ListFormat::of(&self.out).context("--out")?;
         let start = Instant::now();
         let list = load(ui, &self.scene, &self.options)?;
         let seconds = start.elapsed().as_secs_f64();
@@ -234,11 +223,7 @@ impl Scene {
         {
             ui.depth_warning(&shown(Path::new(&self.scene)), warning);
         }
-        if deep {
-            exr::write(&self.out, replace, &list)?;
-        } else {
-            npz::write(&self.out, replace, &list)?;
-        }
+        format.write(&self.out, replace, &list)?;
         if ui.json() {
             let (width, height) = list.size().unzip();
             ui.print_json(

@@ -20,7 +20,7 @@ pub use file::{MaterialOverride, MeshEntry, SceneFile, SplatEntry};
 pub use path::CameraPath;
 pub use raster::{Geometry, Particle, Triangle, Vertex};
 
-use crate::numeric::file::FileError;
+use crate::numeric::file::{FileError, Replace};
 use crate::numeric::npy::NpyError;
 use crate::numeric::similar::suggestion;
 use crate::pixel::{FragmentError, FragmentList};
@@ -200,6 +200,39 @@ pub fn build_in_random_order(scene: &SceneFile, options: &Options, seed: u64) ->
     Ok(scene.build(options, Some(seed))?.0)
 }
 
+/// A kind of file that holds fragments.
+pub struct ListFormat {
+    /// What its name ends in, after the dot.
+    ending: &'static str,
+    /// Reads a file, of those that have parts the part of this name or number.
+    read: fn(&Path, Option<&str>) -> Result<FragmentList, SceneError>,
+    /// Writes a file.
+    write: fn(&Path, Replace, &FragmentList) -> Result<(), SceneError>,
+}
+
+/// Every kind of file that holds fragments.
+const LIST_FORMATS: [ListFormat; 2] = [npz::FORMAT, exr::FORMAT];
+
+impl ListFormat {
+    /// The format of a file, by the ending of its name.
+    ///
+    /// # Errors
+    /// [`SceneError::UnknownFormat`].
+    pub fn of(path: &Path) -> Result<Self, SceneError> {
+        let ending = path.extension().unwrap_or_default();
+        let format = LIST_FORMATS.into_iter().find(|f| ending.eq_ignore_ascii_case(f.ending));
+        format.ok_or_else(|| SceneError::UnknownFormat { path: path.to_owned() })
+    }
+
+    /// Writes a fragment list.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the file.
+    pub fn write(&self, path: &Path, replace: Replace, list: &FragmentList) -> Result<(), SceneError> {
+        (self.write)(path, replace, list)
+    }
+}
+
 /// A fragment list from a file, by the ending of its name: `.npz`, or `.exr` for a deep image, of which the first deep
 /// part is read.
 ///
@@ -214,27 +247,7 @@ pub fn read(path: &Path) -> Result<FragmentList, SceneError> {
 /// # Errors
 /// As [`read`]; an archive has no parts.
 pub fn read_part(path: &Path, part: Option<&str>) -> Result<FragmentList, SceneError> {
-    match path
-        .extension()
-        .and_then(|e| e.to_str())
-        .map(str::to_ascii_lowercase)
-        .as_deref()
-    {
-        Some("npz") if part.is_some() => Err(SceneError::file_content(
-            path,
-            "name",
-            "an archive has no parts; only deep images (.exr) do",
-        )),
-        Some("npz") => npz::read(path),
-        Some("exr") => exr::read(
-            path,
-            &exr::ReadOptions {
-                part: part.map(str::to_owned),
-                ..exr::ReadOptions::default()
-            },
-        ),
-        _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
-    }
+    (ListFormat::of(path)?.read)(path, part)
 }
 
 #[cfg(test)]

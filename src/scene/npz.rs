@@ -4,7 +4,7 @@
 //! `height`, `near`, `far`, and where a deep image was not at its origin `data_window`, `display_window` i32 `[4]`.
 //! Other arrays are named in [`FragmentList::left_out`].
 
-use super::SceneError;
+use super::{ListFormat, SceneError};
 use crate::numeric::file::{FileError, Replace};
 use crate::numeric::npy::{Element, Entry, NpyError, Npz, encode, write_npz_of};
 use crate::pixel::{CameraPlanes, FragmentError, FragmentList, LeftOut, Windows};
@@ -24,6 +24,19 @@ const NAMES: [&str; 10] = [
     "data_window",
     "display_window",
 ];
+
+/// `.npz`.
+pub(super) const FORMAT: ListFormat = ListFormat {
+    ending: "npz",
+    read: |path, part| match part {
+        None => read(path),
+        Some(_) => {
+            let reason = "an archive has no parts; only deep images (.exr) do";
+            Err(SceneError::file_content(path, "name", reason))
+        }
+    },
+    write: |path, replace, list| Ok(write(path, replace, list)?),
+};
 
 /// Reads a fragment list.
 ///

@@ -19,7 +19,7 @@ mod write;
 
 pub use write::write;
 
-use super::SceneError;
+use super::{ListFormat, SceneError};
 use crate::numeric::file::read as read_file;
 use crate::pixel::left_out::{LeftOut, note};
 use crate::pixel::{CameraPlanes, FragmentError, FragmentList, Windows};
@@ -59,6 +59,19 @@ const DEEP: u32 = 0x800;
 const MULTI_PART: u32 = 0x1000;
 /// Most columns or rows of an image.
 const MAX_SIDE: i64 = 1 << 20;
+
+/// `.exr`: deep images.
+pub(super) const FORMAT: ListFormat = ListFormat {
+    ending: "exr",
+    read: |path, part| {
+        let options = ReadOptions {
+            part: part.map(str::to_owned),
+            ..ReadOptions::default()
+        };
+        read(path, &options)
+    },
+    write,
+};
 
 /// Reads a deep image.
 ///
