@@ -1,6 +1,7 @@
 //! The layers of the library: a module imports only from those above it.
 
-use std::path::{Path, PathBuf};
+use crate::sources::{files, without_tests};
+use std::path::Path;
 
 /// Top to bottom; modules on one line do not import one another.
 const ORDER: [&[&str]; 17] = [
@@ -25,17 +26,6 @@ const ORDER: [&[&str]; 17] = [
 
 fn level(module: &str) -> Option<usize> {
     ORDER.iter().position(|line| line.contains(&module))
-}
-
-fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            sources(&path, out);
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            out.push(path);
-        }
-    }
 }
 
 /// Modules that the text of a module names: `crate::name` anywhere, and the heads of a `use crate::{...}` group.
@@ -75,23 +65,10 @@ fn violations(module: &str, text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The text of a file without the bodies of its modules `tests`, which may reach anywhere. What else stands under
-/// `cfg(test)` keeps to the layers.
-fn without_tests(text: &str) -> String {
-    let (mut code, mut rest) = (String::new(), text);
-    while let Some(at) = rest.find("mod tests {\n") {
-        code += &rest[..at];
-        // rustfmt puts the closing brace of a module at the start of a line.
-        rest = rest[at..].split_once("\n}\n").map_or("", |(_, after)| after);
-    }
-    code + rest
-}
-
 #[test]
 fn data_flows_down() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    sources(&src, &mut files);
+    let files = files(&src, &["rs"]);
     assert!(files.len() > 20, "the sources were not found");
     for file in files {
         let relative = file.strip_prefix(&src).unwrap();
@@ -104,7 +81,7 @@ fn data_flows_down() {
         };
         let module = module.as_os_str().to_str().unwrap();
         let text = std::fs::read_to_string(&file).unwrap();
-        let wrong = violations(module, &without_tests(&text));
+        let wrong = violations(module, &without_tests(&text).join("\n"));
         assert!(
             wrong.is_empty(),
             "{} imports from below it: {wrong:?}",
@@ -117,8 +94,7 @@ fn data_flows_down() {
 #[test]
 fn burn_and_clap_stay_at_home() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    sources(&src, &mut files);
+    let files = files(&src, &["rs"]);
     for file in files {
         let text = std::fs::read_to_string(&file).unwrap();
         for (word, home) in [("use burn::", "train"), ("use clap::", "cli"), ("indicatif::", "cli")] {
@@ -135,7 +111,7 @@ fn burn_and_clap_stay_at_home() {
 /// tests, is checked.
 #[test]
 fn only_tests_are_left_out() {
-    let wrong = |text: &str| violations("pixel", &without_tests(text));
+    let wrong = |text: &str| violations("pixel", &without_tests(text).join("\n"));
     let head = "use crate::numeric::rng;\n\n#[cfg(test)]\nmod testing;\n";
     assert_eq!(wrong(&format!("{head}use crate::oit::Method;\n")), ["oit"]);
     let tests = "#[cfg(test)]\npub(crate) mod tests {\n    use crate::gpu::Gpu;\n    mod deeper {\n    }\n}\n";

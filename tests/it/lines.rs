@@ -1,6 +1,7 @@
 //! No line of Rust, comments included, and no line of a document is beyond 120 columns; rows of tables may be. No
 //! function outside tests has more than 80 lines.
 
+use crate::sources::{files, without_tests};
 use std::path::{Path, PathBuf};
 
 /// Columns that a line may have.
@@ -19,55 +20,10 @@ fn too_long(name: &str, text: &str) -> Vec<usize> {
 /// Lines that a function outside tests may have.
 const MAX_LINES: usize = 80;
 
-/// Lines that begin in code. Those that begin within a string may look like anything.
-fn lines_of_code(text: &str) -> Vec<&str> {
-    let (mut lines, mut closing) = (Vec::new(), None::<String>);
-    for line in text.lines() {
-        if closing.is_none() {
-            lines.push(line);
-        }
-        let mut rest = line;
-        loop {
-            rest = match &closing {
-                Some(end) => match rest.find(['\\', '"']) {
-                    Some(at) if rest[at..].starts_with('\\') && end == "\"" => rest.get(at + 2..).unwrap_or_default(),
-                    Some(at) if rest[at..].starts_with(end.as_str()) => {
-                        let after = &rest[at + end.len()..];
-                        closing = None;
-                        after
-                    }
-                    Some(at) => &rest[at + 1..],
-                    None => break,
-                },
-                None => match rest.find(['"', '/', '\'']) {
-                    Some(at) if rest[at..].starts_with("//") => break,
-                    Some(at) if rest[at..].starts_with("'\"'") => &rest[at + 3..],
-                    Some(at) if rest[at..].starts_with('"') => {
-                        let before = &rest[..at];
-                        let hashes = before.len() - before.trim_end_matches('#').len();
-                        closing = Some(format!("\"{}", "#".repeat(hashes)));
-                        &rest[at + 1..]
-                    }
-                    Some(at) => &rest[at + 1..],
-                    None => break,
-                },
-            };
-        }
-    }
-    lines
-}
-
 /// Names and lengths of functions that are too long; `mod tests` is left out. rustfmt puts the closing brace of a
 /// function under its first line. Lines within strings are not counted.
 fn long_functions(text: &str) -> Vec<(String, usize)> {
-    let mut lines = Vec::new();
-    let mut all = lines_of_code(text).into_iter();
-    while let Some(line) = all.next() {
-        lines.push(line);
-        if line.ends_with("mod tests {") {
-            all.by_ref().find(|line| *line == "}");
-        }
-    }
+    let lines = without_tests(text);
     let mut found = Vec::new();
     for (first, line) in lines.iter().enumerate() {
         let head = line.trim_start();
@@ -92,23 +48,10 @@ fn long_functions(text: &str) -> Vec<(String, usize)> {
     found
 }
 
-fn walk(folder: &Path, out: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap();
-        if path.is_dir() && !["target", "node_modules", "snapshots"].contains(&name) && !name.starts_with('.') {
-            walk(&path, out);
-        } else if path.extension().is_some_and(|e| e == "rs" || e == "md") {
-            out.push(path);
-        }
-    }
-}
-
 #[test]
 fn every_line_fits() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    walk(root, &mut files);
+    let files = files(root, &["rs", "md"]);
     assert!(files.len() > 200, "{}", files.len());
     let wrong: Vec<String> = files
         .iter()
@@ -140,9 +83,7 @@ fn long_lines_are_found() {
 #[test]
 fn every_function_is_short() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = Vec::new();
-    walk(&root.join("src"), &mut files);
-    files.retain(|file| file.extension().is_some_and(|e| e == "rs"));
+    let files = files(&root.join("src"), &["rs"]);
     assert!(files.len() > 200, "{}", files.len());
     let of_file = |file: &PathBuf| {
         let found = long_functions(&std::fs::read_to_string(file).unwrap());

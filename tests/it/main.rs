@@ -22,3 +22,4 @@ mod python;
 mod report;
 mod shader_folder;
 mod shaders;
+mod sources;
