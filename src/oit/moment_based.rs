@@ -6,7 +6,7 @@ use super::shader::{Composite, MethodShader, Offers, Pass1, WEIGHT};
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::features::MomentDepthKind;
 use crate::moments::hamburger::OVERESTIMATION;
-use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, Pixel, ViewZ, absorbance};
+use crate::pixel::{DepthError, FragmentList, LogWarp, MomentDepth, OfFilled, Pixel, ViewZ, absorbance};
 use std::sync::OnceLock;
 
 /// Share of the total absorbance below which nothing but the fragment itself is thought to be there.
@@ -175,18 +175,14 @@ impl<F: MomentBased> Method for PerPixel<F> {
         list: &'a FragmentList,
         context: Context,
     ) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        use rayon::prelude::*;
         let warp = warp(&|| self.name(), list, &context)?;
-        let moments = (0..list.pixels()).into_par_iter().with_min_len(64);
-        let moments = moments
-            .map(|p| {
-                let mut samples = samples(&warp, list.pixel(p));
-                if !self.family.rounds_sums() {
-                    sort(&mut samples);
-                }
-                self.family.accumulate(&samples)
-            })
-            .collect();
+        let moments = OfFilled::of(list, |p| {
+            let mut samples = samples(&warp, list.pixel(p));
+            if !self.family.rounds_sums() {
+                sort(&mut samples);
+            }
+            self.family.accumulate(&samples)
+        });
         Ok(Box::new(Pixels {
             method: self,
             list,
@@ -214,12 +210,13 @@ struct Pixels<'a, F: MomentBased> {
     method: &'a PerPixel<F>,
     list: &'a FragmentList,
     warp: LogWarp,
-    moments: Vec<F::Moments>,
+    moments: OfFilled<F::Moments>,
 }
 
 impl<F: MomentBased> Accumulated for Pixels<'_, F> {
     fn weights(&self, p: usize, out: &mut [f64]) {
-        let (pixel, moments, family) = (self.list.pixel(p), &self.moments[p], &self.method.family);
+        let (pixel, family) = (self.list.pixel(p), &self.method.family);
+        let Some(moments) = self.moments.get(p) else { return };
         let total = family.total(moments);
         if total == 0.0 {
             // Nothing absorbs anything.
@@ -261,6 +258,10 @@ impl<F: MomentBased> Accumulated for Pixels<'_, F> {
     }
 
     fn composite(&self, pixel: Pixel<'_>, p: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
-        composite_with_total(pixel, weights, self.method.family.total(&self.moments[p]), background)
+        let total = self
+            .moments
+            .get(p)
+            .map_or(0.0, |moments| self.method.family.total(moments));
+        composite_with_total(pixel, weights, total, background)
     }
 }

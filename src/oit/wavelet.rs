@@ -7,8 +7,7 @@ use super::shader::MethodShader;
 use super::{Accumulated, Context, Method, MethodError, composite_with_total};
 use crate::numeric::exact_sum::ExactSum;
 use crate::numeric::quantise::round_f16;
-use crate::pixel::{FragmentList, Pixel, absorbance};
-use rayon::prelude::*;
+use crate::pixel::{FragmentList, OfFilled, Pixel, absorbance};
 
 /// The stem of its name on the command line.
 pub const NAME: &str = "wavelet";
@@ -235,12 +234,11 @@ impl Method for Wavelet {
     }
 
     fn accumulate<'a>(&'a self, list: &'a FragmentList, _: Context) -> Result<Box<dyn Accumulated + 'a>, MethodError> {
-        let mut coefficients = vec![0.0; self.count() * list.pixels()];
-        coefficients
-            .par_chunks_mut(self.count())
-            .with_min_len(64)
-            .enumerate()
-            .for_each(|(p, out)| self.accumulate_pixel(list.pixel(p), out));
+        let coefficients = OfFilled::of(list, |p| {
+            let mut out = vec![0.0; self.count()];
+            self.accumulate_pixel(list.pixel(p), &mut out);
+            out
+        });
         Ok(Box::new(Summed {
             method: self,
             list,
@@ -253,25 +251,23 @@ struct Summed<'a> {
     method: &'a Wavelet,
     list: &'a FragmentList,
     /// N a pixel.
-    coefficients: Vec<f64>,
+    coefficients: OfFilled<Vec<f64>>,
 }
 
 impl Summed<'_> {
-    fn of_pixel(&self, p: usize) -> &[f64] {
-        let n = self.method.count();
-        &self.coefficients[n * p..n * (p + 1)]
-    }
-
-    /// F_{N−1}: what is kept of the pixel's absorbance.
-    fn total(&self, p: usize) -> f64 {
-        self.method.cell(self.of_pixel(p), self.method.count() - 1).max(0.0)
+    /// F_{N−1}: what is kept of a pixel's absorbance.
+    fn total(&self, coefficients: &[f64]) -> f64 {
+        self.method.cell(coefficients, self.method.count() - 1).max(0.0)
     }
 }
 
 impl Accumulated for Summed<'_> {
     fn weights(&self, p: usize, out: &mut [f64]) {
         let (pixel, method) = (self.list.pixel(p), self.method);
-        let (ends, total) = (ends(pixel), self.total(p));
+        let Some(coefficients) = self.coefficients.get(p) else {
+            return;
+        };
+        let (ends, total) = (ends(pixel), self.total(coefficients));
         let mut others = vec![0.0; method.count()];
         for ((out, &v), &alpha) in out.iter_mut().zip(pixel.view_z).zip(pixel.alpha) {
             let (x, own) = (method.place(v, ends), absorbance(alpha));
@@ -282,7 +278,7 @@ impl Accumulated for Summed<'_> {
                 *out = known;
                 continue;
             }
-            others.copy_from_slice(self.of_pixel(p));
+            others.copy_from_slice(coefficients);
             method.terms(x, own, |i, term| others[i] -= term);
             let t = libm::exp(-method.in_front(&others, x));
             let least = if method.own { libm::exp(-rest) } else { 0.0 };
@@ -291,7 +287,8 @@ impl Accumulated for Summed<'_> {
     }
 
     fn composite(&self, pixel: Pixel<'_>, p: usize, weights: &[f64], background: [f64; 3]) -> [f64; 3] {
-        composite_with_total(pixel, weights, self.total(p), background)
+        let total = self.coefficients.get(p).map_or(0.0, |kept| self.total(kept));
+        composite_with_total(pixel, weights, total, background)
     }
 }
 
