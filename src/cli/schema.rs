@@ -180,7 +180,11 @@ fn definition(name: &str, def: &Value) -> String {
     for variant in def["oneOf"].as_array().into_iter().flatten() {
         let text = variant["description"].as_str().unwrap_or("").replace("\n\n", " ");
         let tag = variant["properties"]["law"]["const"].as_str();
-        let value = variant["const"].as_str().or(tag).unwrap_or("");
+        let value = variant["const"]
+            .as_str()
+            .or(tag)
+            .or(variant["title"].as_str())
+            .unwrap_or("");
         match tag {
             // A law has fields of its own.
             Some(_) => {

@@ -244,15 +244,15 @@ pub fn write(mlp: &Mlp, folder: &Path, prefix: Option<&Prefix>, replace: Replace
 /// A pass of an API by its template.
 ///
 /// Of a line that begins with a word behind `%` the rest stands in the file: `%log` and `%window` where moments are of
-/// such depth, `%es` where GLSL has precisions, `%webgpu` and `%metal` for these two, `%sums` once a target of sums; `%include NAME ...` are functions with
-/// all that they use.
+/// such depth, `%es` where GLSL has precisions, `%webgpu` and `%metal` for these two, `%sums` once a target of sums;
+/// `%include NAME ...` are functions with all that they use.
 fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
     let (set, glsl) = (mlp.feature_set(), api.glsl());
     let last = targets(set);
     let mut include = String::from_utf8(encode_as(mlp, api.format(), None)?).expect("shader source is text");
     if core::has_chain(mlp) {
-        // Direct3D 11 counts buffers that are written among the targets; Vulkan's and Metal's stand where pass 2 has them,
-        // behind its textures and its uniforms.
+        // Direct3D 11 counts buffers that are written among the targets; Vulkan's and Metal's stand where pass 2 has
+        // them, behind its textures and its uniforms.
         let binding = match api {
             Api::Direct3d | Api::Vulkan | Api::Metal => last as u32,
             _ => 0,

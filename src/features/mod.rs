@@ -64,6 +64,7 @@ macro_rules! feature_sets {
                         "description": concat!($($about),*).trim(),
                         "type": "string",
                     },)* {
+                        "title": "core-K-M",
                         "pattern": "^core-[0-8]-[1-6]$",
                         "description": core::ABOUT,
                         "type": "string",
@@ -110,7 +111,8 @@ impl<'de> Deserialize<'de> for FeatureSet {
 
 /// A name that no feature set has.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("unknown feature set '{name}'; {}, {} are", FeatureSet::NAMES.join(", "), core::ABOUT)]
+#[error("unknown feature set '{name}'; there are {}, and any core-K-M of {}",
+    FeatureSet::NAMES.join(", "), core::ABOUT)]
 pub struct UnknownFeatureSet {
     name: String,
 }

@@ -186,8 +186,8 @@ impl Workspace<'_> {
         }
     }
 
-    /// [`Self::both_passes`] on the widest vectors that there are; where no shipped set has so many moments, on those of
-    /// every x86-64, since each level of each number of moments costs half a second of every build.
+    /// [`Self::both_passes`] on the widest vectors that there are; where no usual set has so many moments, on those of
+    /// every x86-64, since each level of each number of moments takes its time in every build.
     fn on_lanes<const N: usize>(
         &mut self,
         list: &FragmentList,

@@ -412,8 +412,8 @@ fn textures_of_gltf_carry_alpha() {
         alpha(&seen_with(at.path(), "a.gltf", "alpha = 0.25\n").unwrap()),
         (0.25, 72)
     );
-    // A colour of the scene file's takes the texture's place, and its alpha, which OPAQUE ignores, is named all the same;
-    // control: an alpha of the scene file's takes the place of that too.
+    // A colour of the scene file's takes the texture's place, and its alpha, which OPAQUE ignores, is named all the
+    // same; control: an alpha of the scene file's takes the place of that too.
     let text = text.replace(r#""alphaMode":"MASK","#, "");
     let at = folder(&[("a.gltf", text.as_bytes())]);
     for (given, is_named) in [

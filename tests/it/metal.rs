@@ -283,7 +283,7 @@ int main() {
             sums0 = sums0 + terms.sums0;
             sums1 = sums1 + terms.sums1;
         }
-        auto &core = *reinterpret_cast<metal::uint4(*)[1]>(slots);
+        auto &core = *reinterpret_cast<metal::uint2(*)[1]>(slots);
         for (auto &f : r) {
             auto out = two::pass2({f[0], metal::float4(0, 0, 0, f[1])}, place, frame2, {sums0}, {sums1}, core);
             float T = out.member.w / f[1];
@@ -293,8 +293,8 @@ int main() {
 }
 "#;
 
-/// Whole passes of cores in Metal's text against what lists of the same fragments are answered with: to 1e-5 on average,
-/// and to 1e-2 at worst, as above. Control: answers to the fragment beside.
+/// Whole passes of cores in Metal's text against what lists of the same fragments are answered with: to 1e-5 on
+/// average, and to 1e-2 at worst, as above. Control: answers to the fragment beside.
 #[test]
 fn metal_passes_of_cores_answer_as_lists_are_answered() {
     let Some(compiler) = compiler() else { return };

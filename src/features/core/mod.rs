@@ -172,8 +172,8 @@ fn write_features<const M: usize>(source: &Source) {
     source.return_numbers(&row);
 }
 
-/// What names of feature sets with a core are.
-pub const ABOUT: &str = "core-K-M with K heavy fragments besides both ends, 0 to 8, and M moments, 1 to 6";
+/// What K and M are in the names of feature sets, `core-K-M`.
+pub const ABOUT: &str = "K heavy fragments besides both ends, from 0 to 8, and M moments, from 1 to 6";
 
 /// A feature set with a core: which K and which M.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

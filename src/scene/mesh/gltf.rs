@@ -615,19 +615,7 @@ impl File<'_> {
         let json = material
             .index()
             .map_or(Value::Null, |i| self.json["materials"][i].clone());
-        let pbr = material.pbr_metallic_roughness();
-        let mut base = pbr.base_color_factor();
-        let mut texture = json["pbrMetallicRoughness"].get("baseColorTexture").cloned();
-        if let Some(other) = extension(&json, "KHR_materials_pbrSpecularGlossiness") {
-            let factor = list(other, "diffuseFactor");
-            base = std::array::from_fn(|k| factor.get(k).and_then(Value::as_f64).unwrap_or(1.0) as f32);
-            texture = other.get("diffuseTexture").cloned();
-            self.leave_out(
-                format!("specular and glossiness of material '{shown}' (KHR_materials_pbrSpecularGlossiness)"),
-                1,
-                "colour and opacity are its diffuse ones",
-            );
-        }
+        let (base, texture) = self.base(&material, &json, &shown);
         part.rgba = rgba(self.path, &shown, base)?;
         let mode = material.alpha_mode();
         if !alpha_given {
@@ -681,6 +669,22 @@ impl File<'_> {
             part.textures = Some(textures);
         }
         Ok(())
+    }
+
+    /// Colour with opacity, and the texture of both.
+    fn base(&mut self, material: &gltf::Material<'_>, json: &Value, shown: &str) -> ([f32; 4], Option<Value>) {
+        let Some(other) = extension(json, "KHR_materials_pbrSpecularGlossiness") else {
+            let texture = json["pbrMetallicRoughness"].get("baseColorTexture");
+            return (material.pbr_metallic_roughness().base_color_factor(), texture.cloned());
+        };
+        self.leave_out(
+            format!("specular and glossiness of material '{shown}' (KHR_materials_pbrSpecularGlossiness)"),
+            1,
+            "colour and opacity are its diffuse ones",
+        );
+        let factor = list(other, "diffuseFactor");
+        let base = std::array::from_fn(|k| factor.get(k).and_then(Value::as_f64).unwrap_or(1.0) as f32);
+        (base, other.get("diffuseTexture").cloned())
     }
 
     /// Names what of a material is glass: `alpha` does not say how much of it is seen through.

@@ -22,7 +22,7 @@ fn import_takes_foreign_weights() {
     nmt(&["check", &at.path("i.json"), "--exports", &at.path("e")]).success();
     nmt(&["import", &foreign, "--out", &at.path("j.json"), "--features", "none"])
         .code(2)
-        .stderr(contains("known are paper"));
+        .stderr(contains("there are paper"));
     nmt(&["import", &at.config(), "--out", &at.path("j.json")])
         .code(2)
         .stderr(contains("not a model file"));
