@@ -200,10 +200,12 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         });
     }
     for api in Api::ALL {
-        let templates = match () {
-            () if blended => api.templates(),
-            () if core::has_chain(mlp) && api.has_cores() => api.core_templates(),
-            () => continue,
+        let templates = if blended {
+            api.templates()
+        } else if core::has_chain(mlp) && api.has_cores() {
+            api.core_templates()
+        } else {
+            continue;
         };
         for (name, template) in templates {
             let text = named(pass(mlp, api, template)?);
@@ -327,7 +329,7 @@ fn of_core(text: &str, set: CoreSet, language: Target) -> String {
     let sum = |number: usize| format!("sums{}.{}", number / 4, LANES[number % 4]);
     let moment = |k: usize| if k <= set.moments { sum(k) } else { "0.0".to_owned() };
     let moments: Vec<String> = (1..=4).map(moment).collect();
-    let words = core::stride(set);
+    let words = set.stride();
     let pair = |i: usize| match i {
         0 => "core[first]".to_owned(),
         _ => format!("core[first + {i}u]"),

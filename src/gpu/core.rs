@@ -7,7 +7,7 @@ mod tests {
     use crate::evaluate::{self, gpu::within_999};
     use crate::export::Target;
     use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-    use crate::export::core::{CoreBinding, chain, codes, insert, known_fragments, stride, weigh};
+    use crate::export::core::{CoreBinding, chain, codes, insert, known_fragments, weigh};
     use crate::features::core::CoreSet;
     use crate::features::core::code::{CodeLayout, CoreFragment, EMPTY, Slot};
     use crate::gpu::compute::wgsl_of_glsl;
@@ -67,14 +67,14 @@ mod tests {
     /// Every slot as the CPU has it, padded as in the buffer.
     fn expected(shape: CoreSet, fragments: &Fragments) -> Vec<u32> {
         let codes = shape.layout.codes(fragments.range.0, fragments.range.1);
-        let mut slots = vec![EMPTY; stride(shape) * fragments.pixels];
+        let mut slots = vec![EMPTY; shape.stride() * fragments.pixels];
         for ((&p, &v), &a) in fragments
             .pixel_of
             .iter()
             .zip(&fragments.view_z)
             .zip(&fragments.absorbance)
         {
-            let first = p as usize * stride(shape);
+            let first = p as usize * shape.stride();
             codes.insert(&mut slots[first..first + shape.slots()], codes.fragment(v, a));
         }
         slots
@@ -210,7 +210,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
         let pipeline = gpu.compute("core", source, "insert_all")?;
         let groups = groups(fragments.view_z.len() as u64);
         let parameters = [fragments.range.0, fragments.range.1, (groups[0] * 64) as f32, 0.0];
-        let core = gpu.zeros("core", 4 * (stride(shape) * fragments.pixels) as u64)?;
+        let core = gpu.zeros("core", 4 * (shape.stride() * fragments.pixels) as u64)?;
         let buffers = [
             &gpu.upload("parameters", &parameters)?,
             &gpu.upload("pixels", &fragments.pixel_of)?,
@@ -224,7 +224,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
             groups,
         };
         gpu.run("core", &[dispatch])?;
-        gpu.download(&core, stride(shape) * fragments.pixels)
+        gpu.download(&core, shape.stride() * fragments.pixels)
     }
 
     /// 16,384 pixels of up to 300 fragments in random order, a thread a fragment: every slot of every pixel is the
@@ -416,7 +416,7 @@ fn insert_fragment(f: Varying) -> @location(0) vec4<f32> {
                     term *= z;
                 }
             }
-            let core: Vec<Entry<f32>> = slots[p * stride(SET)..][..SET.slots()]
+            let core: Vec<Entry<f32>> = slots[p * SET.stride()..][..SET.slots()]
                 .iter()
                 .enumerate()
                 .map(|(place, &code)| codes.decode(Slot::at(place), code).map_or(empty, entry))
@@ -703,7 +703,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let bindings = WGSL.split("\n@compute").next().unwrap();
         let source = codes(SET, Target::Wgsl) + &insert(Target::Wgsl, PLACE) + bindings + RENDER;
         let parameters = [fragments.range.0, fragments.range.1, width as f32, 0.0];
-        let core = gpu.zeros("core", 4 * (stride(SET) * fragments.pixels) as u64).unwrap();
+        let core = gpu.zeros("core", 4 * (SET.stride() * fragments.pixels) as u64).unwrap();
         let buffers = [
             &gpu.upload("parameters", &parameters).unwrap(),
             &gpu.upload("pixels", &fragments.pixel_of).unwrap(),
@@ -786,7 +786,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
             gpu.queue.submit([encoder.finish()]);
         })
         .unwrap();
-        let found: Vec<u32> = gpu.download(&core, stride(SET) * fragments.pixels).unwrap();
+        let found: Vec<u32> = gpu.download(&core, SET.stride() * fragments.pixels).unwrap();
         let expected = expected(SET, &fragments);
         assert!(found == expected, "{} differ", differing(&found, &expected));
     }

@@ -1,7 +1,6 @@
 //! Fragment lists on the device.
 
 use super::device::{Gpu, GpuError};
-use crate::export::core::stride;
 use crate::pixel::FragmentList;
 use crate::shader::MethodShader;
 
@@ -152,5 +151,5 @@ pub(super) fn frame(
 pub(super) fn core(gpu: &Gpu, method: &MethodShader, pixels: usize) -> Result<Option<wgpu::Buffer>, GpuError> {
     let bytes = |stride: usize| 4 * stride as u64 * pixels as u64;
     let buffer = |stride| gpu.zeros("cores of pixels", bytes(stride));
-    method.core.map(|set| buffer(stride(set))).transpose()
+    method.core.map(|set| buffer(set.stride())).transpose()
 }

@@ -8,6 +8,8 @@
 use super::classes::{Class, Switches, Tally};
 use super::passes::{Column, ROWS};
 use super::tiled::Tiled;
+#[cfg(target_arch = "x86_64")]
+use crate::features::FeatureSet;
 use crate::features::core::code::{Codes, CoreFragment, Slot};
 use crate::features::core::formulas::{share_by_law, transmittance};
 use crate::features::core::pixel::{Between, Query, Sums, with_sums};
@@ -159,7 +161,16 @@ impl Coded {
 /// Whether some feature set that is listed has a core with so many moments.
 #[cfg(target_arch = "x86_64")]
 const fn is_usual(moments: usize) -> bool {
-    matches!(moments, 2 | 3 | 4 | 6)
+    let mut sets: &[FeatureSet] = &FeatureSet::ALL;
+    while let [set, others @ ..] = sets {
+        if let FeatureSet::Core(shape) = set
+            && shape.moments() == moments
+        {
+            return true;
+        }
+        sets = others;
+    }
+    false
 }
 
 /// What one thread works in.

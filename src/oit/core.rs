@@ -23,9 +23,7 @@ pub const ENTRY: Entry = Entry {
 pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
     let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
     Capabilities {
-        bits_per_pixel: of_sums
-            .bits_per_pixel
-            .map(|bits| bits + 32 * set.slots().next_multiple_of(2) as u32),
+        bits_per_pixel: of_sums.bits_per_pixel.map(|bits| bits + 32 * set.stride() as u32),
         needs: Needs {
             atomics: true,
             ..of_sums.needs

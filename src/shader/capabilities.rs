@@ -57,9 +57,9 @@ fn bound(method: &MethodShader) -> Bound {
         .filter(|(_, v)| matches!(v.space, AddressSpace::Storage { access } if access.contains(StorageAccess::STORE)))
         .count();
     assert!(atomics <= 1, "one buffer of cores");
-    let core = method
-        .core
-        .map_or(0, |set| 32 * crate::export::core::stride(set) as u32);
+    let slots = shaders.pass1[0].0.split_once("const NMT_SLOTS: u32 = ");
+    let slots = slots.and_then(|(_, rest)| rest.split_once("u;")?.0.parse::<u32>().ok());
+    let core = 32 * slots.unwrap_or(0);
     assert_eq!(core > 0, atomics == 1, "{}", method.name);
     let added = |target: &super::passes::Target| matches!(target.holds, Holds::Added { .. });
     Bound {

@@ -2,7 +2,7 @@
 
 use super::absorbance;
 use crate::export::Target;
-use crate::export::core::{codes, gathered, stride, weigh, weigh_by_network};
+use crate::export::core::{codes, gathered, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
@@ -33,7 +33,7 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
     format!(
         "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {}u;\n\n{}{}{}{prelude}{short}",
         set.moments + 2,
-        stride(set) / 2,
+        set.stride() / 2,
         codes(set, Target::Wgsl),
         weigh,
         absorbance(),
@@ -72,7 +72,7 @@ pub(super) fn list(set: CoreSet) -> String {
 /// The core of a pixel as the last member of `OitPixel`, from a buffer of pairs; nothing where the method keeps none.
 pub(super) fn member(set: Option<CoreSet>) -> String {
     let Some(set) = set else { return String::new() };
-    let items: Vec<String> = (0..stride(set) / 2)
+    let items: Vec<String> = (0..set.stride() / 2)
         .map(|i| format!("oit_core[pixel * OIT_CORE + {i}u]"))
         .collect();
     format!(", array<vec2<u32>, OIT_CORE>({})", items.join(", "))

@@ -46,18 +46,7 @@ fn verdict(command: &mut Command) -> Result<(), String> {
 
 /// All files below `shaders/` that end in .metal.
 fn files() -> Vec<PathBuf> {
-    let mut open = vec![root().join("shaders")];
-    let mut found = Vec::new();
-    while let Some(folder) = open.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else if path.extension().is_some_and(|e| e == "metal") {
-                found.push(path);
-            }
-        }
-    }
+    let mut found = crate::sources::files(&root().join("shaders"), &["metal"]);
     found.sort();
     found
 }

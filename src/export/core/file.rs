@@ -40,7 +40,7 @@ pub fn text(set: CoreSet, language: Target) -> String {
 fn about(set: CoreSet) -> String {
     let about = include_str!("about.txt")
         .replace("CORE_HEAVY", &set.heavy.to_string())
-        .replace("CORE_SLOTS", &super::stride(set).to_string())
+        .replace("CORE_SLOTS", &set.stride().to_string())
         .replace("CORE_MOMENTS", &set.moments.to_string())
         .replace("CORE_VERSION", env!("CARGO_PKG_VERSION"));
     let line = |line: &str| format!("// {line}").trim_end().to_owned() + "\n";

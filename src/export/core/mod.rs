@@ -83,11 +83,6 @@ impl CoreBinding {
     pub const DEFAULT: Self = Self { group: 3, binding: 0 };
 }
 
-/// Slots of a pixel in a shader's buffer, so many that they can be read two at a time.
-pub fn stride(set: CoreSet) -> usize {
-    set.slots().next_multiple_of(2)
-}
-
 /// Vectors of four slots that `nmt_core_transmittance` takes.
 pub fn vectors(set: CoreSet) -> usize {
     set.slots().div_ceil(4)
@@ -96,7 +91,7 @@ pub fn vectors(set: CoreSet) -> usize {
 /// A pixel's slots as those vectors, from the expressions of its pairs of words.
 pub fn gathered(set: CoreSet, language: Target, pair: &dyn Fn(usize) -> String) -> String {
     let vector = |i: usize| {
-        let second = match 2 * i + 1 < stride(set) / 2 {
+        let second = match 2 * i + 1 < set.stride() / 2 {
             true => pair(2 * i + 1),
             false => "0u, 0u".to_owned(),
         };
@@ -116,7 +111,7 @@ pub fn codes(set: CoreSet, language: Target) -> String {
         .replace("CORE_DEPTH_BITS", &set.layout.depth_bits.to_string())
         .replace("CORE_OCTAVE_BITS", &set.layout.octave_bits.to_string())
         .replace("CORE_HEAVY", &set.heavy.to_string())
-        .replace("CORE_SLOTS", &stride(set).to_string())
+        .replace("CORE_SLOTS", &set.stride().to_string())
         .replace("CORE_KEY_SCALE", &format!("{:?}", set.layout.key_scale()))
         .replace("CORE_LAST_ABSORBANCE", &set.layout.last_absorbance_step().to_string())
 }
@@ -148,7 +143,7 @@ mod tests {
     #[test]
     fn slots_are_read_in_pairs_and_handed_on_in_fours() {
         let of = |f: fn(CoreSet) -> usize| [0, 2, 3, 4, 6, 8].map(|heavy| f(CoreSet::new(heavy, 2)));
-        assert_eq!(of(stride), [2, 4, 6, 6, 8, 10]);
+        assert_eq!(of(|set| set.stride()), [2, 4, 6, 6, 8, 10]);
         assert_eq!(of(vectors), [1, 1, 2, 2, 2, 3]);
         let text = |heavy| gathered(CoreSet::new(heavy, 2), Target::Glsl, &|i| format!("p{i}"));
         assert_eq!(text(4), "uvec4(p0, p1), uvec4(p2, 0u, 0u)");

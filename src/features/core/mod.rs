@@ -111,6 +111,11 @@ impl CoreSet {
         self.heavy + 2
     }
 
+    /// Slots of a pixel in a shader's buffer, so many that they can be read two at a time.
+    pub const fn stride(&self) -> usize {
+        self.slots().next_multiple_of(2)
+    }
+
     /// What pass 1 keeps of a pixel \[bits\]: 32 each for b_0..b_M and the slots, 16 for the count.
     pub const fn bits(&self) -> u32 {
         32 * (1 + self.moments as u32 + self.slots() as u32) + 16
@@ -188,8 +193,13 @@ impl Shape {
     /// # Panics
     /// If there are too many of either, or no moments.
     pub const fn new(heavy: usize, moments: usize) -> Self {
-        assert!(heavy <= code::MAX_HEAVY && 1 <= moments && moments <= MAX_MOMENTS);
+        let CoreSet { heavy, moments, .. } = CoreSet::new(heavy, moments);
         Self { heavy, moments }
+    }
+
+    /// M.
+    pub const fn moments(self) -> usize {
+        self.moments
     }
 
     /// The one of this name; none where it is no such name.

@@ -5,7 +5,7 @@
 
 use super::passes::{FRAME, composite};
 use super::{MethodShader, core};
-use crate::export::core::{known_fragments, stride};
+use crate::export::core::known_fragments;
 use crate::features::core::CoreSet;
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
 use crate::oit::shader::{Composite, Pass1};
@@ -88,7 +88,7 @@ impl State {
         let (mut head, mut variable, mut insert) = (String::new(), "", "");
         if let Some(set) = self.core {
             let slot = |i: usize| format!("oit_core[pixel * NMT_SLOTS + {i}u] = core[{i}];");
-            stores.extend((0..stride(set)).map(slot));
+            stores.extend((0..set.stride()).map(slot));
             head = format!("{CORE_WRITTEN}{}", core::list(set));
             variable = "var core: array<u32, NMT_SLOTS>;";
             insert = "oit_insert(&core, f.steps);";
