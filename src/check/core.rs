@@ -5,7 +5,7 @@ use super::interpret::{Interpreter, Value};
 use super::{Finding, hlsl, pruned, rows::RowKind, without_prefix};
 use crate::check::Numbers;
 use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-use crate::export::core::{CoreBinding, LANGUAGES, chain_name, codes, file_name, insert, vectors};
+use crate::export::core::{CoreBinding, LANGUAGES, calls_of_passes, chain_name, codes, file_name, keep, vectors};
 use crate::export::{Format, Target};
 use crate::features::core::CoreSet;
 use crate::model::Mlp;
@@ -166,12 +166,20 @@ pub fn without_atomics(text: &str, language: Target) -> Result<String, String> {
         .replace(step, plain))
 }
 
+/// A file that naga and slangc make WGSL of.
+fn executable(text: &str, language: Target, set: CoreSet) -> Result<String, String> {
+    match set.is_blended() {
+        true => Ok(text.to_owned()),
+        false => without_atomics(text, language),
+    }
+}
+
 /// The file as WGSL whose functions can be executed; none where a tool for it is missing, which is named.
 fn as_wgsl(text: &str, language: Target, set: CoreSet) -> Result<Result<String, String>, String> {
     match language {
         Target::Wgsl => Ok(Ok(text.to_owned())),
         Target::Glsl => {
-            let shader = format!("#version 450\n{}\nvoid main() {{}}\n", without_atomics(text, language)?);
+            let shader = format!("#version 450\n{}\nvoid main() {{}}\n", executable(text, language, set)?);
             let options = naga::front::glsl::Options::from(naga::ShaderStage::Compute);
             let shader = shader.replace("void main", "layout(local_size_x = 1) in;\nvoid main");
             let module = naga::front::glsl::Frontend::default()
@@ -196,7 +204,7 @@ fn as_wgsl(text: &str, language: Target, set: CoreSet) -> Result<Result<String, 
                 "{}\nRWStructuredBuffer<float4> rows : register(u1);\n\n[numthreads(1, 1, 1)]\nvoid main(uint3 id : \
                  SV_DispatchThreadID) {{\n    float4 a = rows[id.x];\n    rows[id.x] = nmt_core_weigh(a.x, a.y, \
                  {vectors}a.z, a.w, a);\n}}\n",
-                without_atomics(text, language)?
+                executable(text, language, set)?
             );
             hlsl::to_wgsl(&slangc, &shader, "main").map(Ok)
         }
@@ -278,7 +286,12 @@ fn files(subject: Subject<'_>, folder: &Path, languages: &[Target]) -> Vec<Findi
         };
         let rows = rows(subject);
         let place = CoreBinding::DEFAULT;
-        let whole = text.contains(&codes(set, language)) && text.contains(&insert(language, place));
+        let pieces = [
+            codes(set, language),
+            keep(set, language, place),
+            calls_of_passes(set, language),
+        ];
+        let whole = pieces.iter().all(|piece| text.contains(piece));
         let result = if whole {
             Ok(())
         } else {

@@ -105,7 +105,7 @@ fn render(
 
 /// Whether render passes make the image of a method: it must keep its core, where it has one, in the fragment stage.
 fn draws(gpu: &Gpu, method: &MethodShader, storage: TargetPrecision) -> bool {
-    is_drawn(gpu, storage) && (method.core.is_none() || gpu.has_fragment_atomics())
+    is_drawn(gpu, storage) && (!method.needs_atomics() || gpu.has_fragment_atomics())
 }
 
 /// Whether render passes make the image.

@@ -24,9 +24,10 @@ struct Calls<'s> {
     targets: Vec<String>,
 }
 
-/// Writes the calls of a feature set; none where pass 2 answers of more than blended sums.
+/// Writes the calls of a feature set; none where pass 2 answers of more than blended sums and their range. Those of a
+/// core are written behind its codes ([`super::core::ends`]).
 pub fn write(source: &Source, spec: &FeatureSpec) {
-    if !spec.has_blended_passes() {
+    if !spec.has_blended_passes() || spec.core.is_some() {
         return;
     }
     let moments = spec.sums.moments;

@@ -8,7 +8,6 @@ use crate::features::core::CoreSet;
 use crate::features::{FeatureSet, MomentDepthKind};
 use crate::model::Mlp;
 use crate::numeric::file::{Replace, create_folder, may_write, write_atomically};
-use crate::numeric::source::Type;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -192,7 +191,8 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
         out.push(ShaderFile { path, text });
     }
     out.extend(core::chain_files(mlp, &core::LANGUAGES, prefix)?);
-    let blended = set.spec().has_blended_passes();
+    // A core has no passes beyond the moments that fit into a vector.
+    let blended = set.spec().has_blended_passes() && (set.spec().core.is_none() || core::has_chain(mlp));
     if blended {
         out.push(ShaderFile {
             path: format!("{}.unity.hlsl", mlp.name()),
@@ -312,23 +312,7 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
 
 /// What passes of a core are filled in with beside what all are.
 fn of_core(text: &str, set: CoreSet, language: Target) -> String {
-    const LANES: [&str; 4] = ["x", "y", "z", "w"];
-    let vector = core::dialect(language).type_name(Type::Vec4);
-    let numbers = set.moments + 2;
-    let term = |number: usize| match number {
-        0 => "absorbance".to_owned(),
-        k if k <= set.moments => format!("b.{}", LANES[k - 1]),
-        k if k + 1 == numbers => "n".to_owned(),
-        _ => "0.0".to_owned(),
-    };
-    let terms = |target: usize| {
-        let terms: Vec<String> = (4 * target..4 * target + 4).map(term).collect();
-        format!("{vector}({})", terms.join(", "))
-    };
-    let all: Vec<String> = (0..numbers.div_ceil(4)).map(terms).collect();
-    let sum = |number: usize| format!("sums{}.{}", number / 4, LANES[number % 4]);
-    let moment = |k: usize| if k <= set.moments { sum(k) } else { "0.0".to_owned() };
-    let moments: Vec<String> = (1..=4).map(moment).collect();
+    let all = core::ends::terms(set, language);
     let words = set.stride();
     let pair = |i: usize| match i {
         0 => "core[first]".to_owned(),
@@ -339,12 +323,12 @@ fn of_core(text: &str, set: CoreSet, language: Target) -> String {
         text = text.replace(&format!("{{terms{i}}}"), terms);
     }
     text.replace("{terms}", &all.join(", "))
-        .replace("{moments}", &moments.join(", "))
+        .replace("{moments}", &core::ends::moments(set))
         .replace("{slots}", &core::gathered(set, language, &pair))
         .replace("{words}", &words.to_string())
         .replace("{pairs}", &(words / 2).to_string())
-        .replace("{n}", &sum(numbers - 1))
-        .replace("{b0}", &sum(0))
+        .replace("{n}", &core::ends::sum(set.moments + 1))
+        .replace("{b0}", &core::ends::sum(0))
 }
 
 /// A line once a target of sums.
@@ -382,7 +366,11 @@ fn unity(mlp: &Mlp) -> String {
         text += &line;
         text.push('\n');
     }
-    text.replace("{include}", &format!("{}.hlsl", mlp.name()))
+    let include = match set.spec().core {
+        Some(_) => core::chain_name(mlp, Target::Hlsl),
+        None => format!("{}.hlsl", mlp.name()),
+    };
+    text.replace("{include}", &include)
         .replace("{guard}", &include_guard(mlp.name()))
         .replace("{out}", &each(&|i| format!("out float4 Sums{i}")))
         .replace("{in}", &each(&|i| format!("float4 Sums{i}")))

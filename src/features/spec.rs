@@ -66,7 +66,8 @@ impl FeatureSpec {
     /// Whether two passes that blend their sums are all that an answer needs, and the answer is a transmittance: such
     /// sets have calls and whole passes in shader source.
     pub fn has_blended_passes(&self) -> bool {
-        self.core.is_none() && self.target == Target::Transmittance
+        let is_blended = self.core.is_none_or(|core| core.is_blended());
+        is_blended && self.target == Target::Transmittance
     }
 }
 

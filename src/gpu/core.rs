@@ -7,7 +7,7 @@ mod tests {
     use crate::evaluate::{self, gpu::within_999};
     use crate::export::Target;
     use crate::export::core::weigh::{Entry, weigh_by_law, weigh_by_mlp};
-    use crate::export::core::{CoreBinding, chain, codes, insert, known_fragments, weigh};
+    use crate::export::core::{CoreBinding, chain, codes, ends, insert, known_fragments, weigh};
     use crate::features::core::CoreSet;
     use crate::features::core::code::{CodeLayout, CoreFragment, EMPTY, Slot};
     use crate::gpu::compute::wgsl_of_glsl;
@@ -531,7 +531,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         let Some(gpu) = gpu() else { return };
         for scene in ["sphere-cluster", "glass-stacks"] {
             let list = built_in(scene, 64);
-            for (method, shader) in methods(&[2, 6], &NETWORKS) {
+            for (method, shader) in methods(&[0, 2, 6], &NETWORKS) {
                 let name = method.name();
                 let image_of = |list: &FragmentList| {
                     let accumulated = method.accumulate(list, Context::default()).unwrap();
@@ -594,6 +594,48 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
                 assert!(differ.iter().all(|p| listed.contains(p)), "{scene}, {network}");
             }
         }
+    }
+
+    /// Both ends in channels that blending compares: numbers rise as codes do, are normal and between −4 and 4, and give
+    /// their codes back, what a channel is cleared to that of the empty slot. Control: the bits of the codes themselves
+    /// are subnormal or no numbers in places.
+    #[test]
+    fn numbers_of_ends_rise_as_codes_do() {
+        let Some(gpu) = gpu() else { return };
+        let set = CoreSet::new(0, 4);
+        let steps = [0, 1, 2, 1000, set.layout.last_absorbance_step()];
+        let all = (0..=65_535u32).step_by(5).flat_map(|q| steps.map(|a| q << 16 | a));
+        let all: Vec<u32> = all.collect();
+        let source = codes(set, Target::Wgsl)
+            + &ends::values(set, Target::Wgsl)
+            + "
+@group(0) @binding(0) var<storage, read> all: array<u32>;
+@group(0) @binding(1) var<storage, read_write> numbers: array<f32>;
+@group(0) @binding(2) var<storage, read_write> back: array<u32>;
+
+@compute @workgroup_size(64)
+fn there_and_back(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let i = id.x + id.y * groups.x * 64u;
+    if (i < arrayLength(&all)) {
+        numbers[i] = nmt_core_end_value(all[i]);
+        back[i] = nmt_core_end_code(select(numbers[i], -3.0e38, all[i] == 0u));
+    }
+}
+";
+        let pipeline = gpu.compute("ends", &source, "there_and_back").unwrap();
+        let [numbers, back] = ["numbers", "back"].map(|label| gpu.zeros(label, 4 * all.len() as u64).unwrap());
+        let dispatch = Dispatch {
+            pipeline: &pipeline,
+            buffers: &[&gpu.upload("codes", &all).unwrap(), &numbers, &back],
+            groups: groups(all.len() as u64),
+        };
+        gpu.run("ends", &[dispatch]).unwrap();
+        let back: Vec<u32> = gpu.download(&back, all.len()).unwrap();
+        assert_eq!(back, all);
+        let numbers: Vec<f32> = gpu.download(&numbers, all.len()).unwrap();
+        assert!(numbers.iter().all(|x| x.is_normal() && x.abs() < 4.0));
+        assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(all.iter().filter(|&&code| !f32::from_bits(code).is_normal()).count() > 100);
     }
 
     /// Order in which fragments are drawn: the core is the same, so that only the rounding of the sums is left, 1e-3 in

@@ -12,7 +12,7 @@ use crate::shader::MethodShader;
 use crate::shader::passes::{Channel, Holds, Limits, Shaders, Target, TargetPrecision};
 use wgpu::TextureFormat::{Depth32Float, R16Float, R32Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float};
 
-/// What stands in a clear pixel of the range: below −v of any fragment, and above none.
+/// What stands in a clear pixel of the range, below −v of any fragment, or of both ends, below the number of any code.
 const NOTHING: f64 = -3.0e38;
 
 /// What this device allows.
@@ -37,10 +37,9 @@ fn format_of(target: Target) -> wgpu::TextureFormat {
 }
 
 fn blend_of(target: Target) -> wgpu::BlendState {
-    let operation = if target.holds == Holds::Range {
-        wgpu::BlendOperation::Max
-    } else {
-        wgpu::BlendOperation::Add
+    let operation = match target.holds {
+        Holds::Range | Holds::Ends => wgpu::BlendOperation::Max,
+        _ => wgpu::BlendOperation::Add,
     };
     let both = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
@@ -55,7 +54,7 @@ fn blend_of(target: Target) -> wgpu::BlendState {
 
 fn clear_of(target: Target) -> wgpu::Color {
     match target.holds {
-        Holds::Range => wgpu::Color {
+        Holds::Range | Holds::Ends => wgpu::Color {
             r: NOTHING,
             g: NOTHING,
             b: 0.0,
@@ -170,7 +169,7 @@ fn refuse(gpu: &Gpu, list: &DeviceList, method: &MethodShader, precision: Target
             list.greatest
         )));
     }
-    if method.core.is_some() && !gpu.has_fragment_atomics() {
+    if method.needs_atomics() && !gpu.has_fragment_atomics() {
         return Err(lacks(ATOMICS));
     }
     if method.core.is_some() && precision == TargetPrecision::Half {
@@ -389,10 +388,13 @@ impl Pipeline {
     ) -> Result<Self, GpuError> {
         refuse(gpu, list, method, precision)?;
         let (width, height) = list.image_size()?;
-        let core = upload::core(gpu, method, list.pixels)?;
+        let core = match method.needs_atomics() {
+            true => upload::core(gpu, method, list.pixels)?,
+            false => None,
+        };
         let shaders = Shaders::new(method, precision, limits);
         gpu.checked(&method.name, || {
-            let layouts = Layouts::new(gpu, &shaders.targets, method.core.is_some());
+            let layouts = Layouts::new(gpu, &shaders.targets, method.needs_atomics());
             let read = wgpu::TextureUsages::TEXTURE_BINDING;
             let texture = |label, format, usage| texture(gpu, label, (width, height), format, usage);
             let view = |label, format| texture(label, format, read).create_view(&Default::default());

@@ -19,9 +19,15 @@ pub const ENTRY: Entry = Entry {
 };
 
 /// A method that keeps single fragments by a chain of atomics besides the sums of all others and their number. Slots
-/// are read two at a time, so that a buffer holds an even number.
+/// are read two at a time, so that a buffer holds an even number. Without heavy fragments blending keeps both ends.
 pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
     let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
+    if set.is_blended() {
+        return Capabilities {
+            bits_per_pixel: of_sums.bits_per_pixel.map(|bits| bits + 64),
+            ..of_sums
+        };
+    }
     Capabilities {
         bits_per_pixel: of_sums.bits_per_pixel.map(|bits| bits + 32 * set.stride() as u32),
         needs: Needs {

@@ -63,7 +63,7 @@ pub struct MethodShader {
     /// How the colour is made.
     pub composite: Composite,
     /// Single fragments that pass 1 keeps beside the sums; then the sums are of what their steps stand for, and the
-    /// number of fragments that absorb comes last.
+    /// number of fragments that absorb comes last. Blending keeps both ends, atomics what is more.
     pub core: Option<CoreSet>,
     /// Functions of the source beside the two that every method has.
     pub offers: Offers,
@@ -141,6 +141,11 @@ impl MethodShader {
             weight: WEIGHT,
             source: String::new(),
         }
+    }
+
+    /// Whether render passes keep its core by atomics on a buffer.
+    pub fn needs_atomics(&self) -> bool {
+        self.core.is_some_and(|core| !core.is_blended())
     }
 
     /// A method that weighs all fragments alike.

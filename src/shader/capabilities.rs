@@ -59,8 +59,12 @@ fn bound(method: &MethodShader) -> Bound {
     assert!(atomics <= 1, "one buffer of cores");
     let slots = shaders.pass1[0].0.split_once("const NMT_SLOTS: u32 = ");
     let slots = slots.and_then(|(_, rest)| rest.split_once("u;")?.0.parse::<u32>().ok());
-    let core = 32 * slots.unwrap_or(0);
-    assert_eq!(core > 0, atomics == 1, "{}", method.name);
+    let core = if atomics == 1 {
+        32 * slots.expect("slots of a core")
+    } else {
+        0
+    };
+    assert_eq!(atomics == 1, method.needs_atomics(), "{}", method.name);
     let added = |target: &super::passes::Target| matches!(target.holds, Holds::Added { .. });
     Bound {
         bits: pass1.iter().map(|m| returned(m, "oit_pass1")).sum::<u32>() + core,

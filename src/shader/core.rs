@@ -2,7 +2,7 @@
 
 use super::absorbance;
 use crate::export::Target;
-use crate::export::core::{codes, gathered, weigh, weigh_by_network};
+use crate::export::core::{codes, ends, gathered, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
@@ -26,12 +26,16 @@ pub(super) fn module(set: CoreSet, network: &str) -> String {
         "" => String::new(),
         _ => short(&weigh, &slots, &moments),
     };
+    let values = match set.is_blended() {
+        true => ends::values(set, Target::Wgsl),
+        false => String::new(),
+    };
     let prelude = include_str!("core/prelude.wgsl")
         .replace("OIT_PIXEL_MOMENTS", &moments)
         .replace("OIT_MOMENTS", &added)
         .replace("OIT_SLOTS", &slots);
     format!(
-        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {}u;\n\n{}{}{}{prelude}{short}",
+        "{network}\nconst OIT_SUMS = {}u;\nconst OIT_CORE = {}u;\n\n{}{values}{}{}{prelude}{short}",
         set.moments + 2,
         set.stride() / 2,
         codes(set, Target::Wgsl),
@@ -67,6 +71,12 @@ pub(super) fn list(set: CoreSet) -> String {
         )
     });
     include_str!("core/list.wgsl").replace("OIT_HEAVY", &heavy.collect::<Vec<_>>().join("\n    "))
+}
+
+/// The core of a pixel as the last member of `OitPixel`, from the target of this index, in which blending kept both
+/// ends.
+pub(super) fn member_of_ends(target: usize) -> String {
+    format!(", array<vec2<u32>, OIT_CORE>(nmt_core_ends(textureLoad(oit_target{target}, at, 0).xy))")
 }
 
 /// The core of a pixel as the last member of `OitPixel`, from a buffer of pairs; nothing where the method keeps none.

@@ -5,7 +5,7 @@
 //! | pass | targets | blending |
 //! |---|---|---|
 //! | 1 | sums of the method and number of fragments, four to a texture | add |
-//! | 1 | (−v, v) as rg32float | max |
+//! | 1 | (−v, v) as rg32float, or both ends of a core as codes | max |
 //! | 2 | Σ a w C and Σ a w | add |
 //! | resolve | colour | none |
 //!
@@ -105,6 +105,8 @@ pub enum Holds {
     },
     /// (−v, v), of which the greatest is kept: −nearest and farthest.
     Range,
+    /// Both ends of a core, of which the greatest codes are kept.
+    Ends,
     /// The least v, scaled, in a depth buffer.
     Nearest,
     /// The greatest v, scaled, in a depth buffer.
@@ -133,6 +135,9 @@ impl Target {
             true if half => targets.extend([Holds::Nearest, Holds::Farthest].map(|h| target(1, Channel::Depth, h))),
             true => targets.push(target(2, Channel::F32, Holds::Range)),
         }
+        if method.core.is_some_and(|core| core.is_blended()) {
+            targets.push(target(2, Channel::F32, Holds::Ends));
+        }
         targets
     }
 
@@ -154,6 +159,7 @@ impl Target {
     fn terms(self, sums: usize) -> String {
         let terms: Vec<String> = match self.holds {
             Holds::Range => vec!["-seen.v".to_owned(), "seen.v".to_owned()],
+            Holds::Ends => vec!["nmt_core_end_values(seen.steps)".to_owned()],
             Holds::Nearest | Holds::Farthest => unreachable!("depth buffers have a shader of their own"),
             Holds::Added { first, .. } => (0..self.channels as usize)
                 .map(|i| match first + i {
@@ -253,20 +259,25 @@ impl Shaders {
                 .replace("OIT_TERMS", &terms.join(", "));
             // One draw keeps the core.
             let (call, core) = match method.core {
-                Some(_) if index == 0 => (INSERT, insert(Language::Wgsl, CORE)),
+                Some(_) if index == 0 && method.needs_atomics() => (INSERT, insert(Language::Wgsl, CORE)),
                 _ => ("", String::new()),
             };
             let entry = entry.replace("OIT_INSERT", call);
             (format!("{module}{FRAME}{POINTS}{core}{entry}"), draw)
         });
         let state = state(&targets, method.sums);
-        let core_read = if method.core.is_some() { CORE_READ } else { "" };
+        let core_read = if method.needs_atomics() { CORE_READ } else { "" };
+        let ends = targets.iter().position(|target| target.holds == Holds::Ends);
+        let member = match ends {
+            Some(ends) => super::core::member_of_ends(ends),
+            None => super::core::member(method.core),
+        };
         Self {
             pass1: pass1.collect(),
             pass2: format!(
                 "{module}{FRAME}{POINTS}{state}{core_read}{}",
                 PASS2
-                    .replace("OIT_CORE_MEMBER", &super::core::member(method.core))
+                    .replace("OIT_CORE_MEMBER", &member)
                     .replace("OIT_RANGE", &range(&targets))
                     .replace("OIT_WEIGHT", method.weight)
             ),
@@ -296,7 +307,9 @@ fn state(targets: &[Target], sums: usize) -> String {
     }
     let added = |i: usize| format!("target{}[{}]", i / 4, i % 4);
     let parts: Vec<String> = (0..sums).map(added).collect();
-    let counted = targets.iter().any(|t| !matches!(t.holds, Holds::Added { .. }));
+    let counted = targets
+        .iter()
+        .any(|t| !matches!(t.holds, Holds::Added { .. } | Holds::Ends));
     let count = if counted {
         format!("textureLoad(oit_target{}, at, 0)[{}]", sums / 4, sums % 4)
     } else {

@@ -62,7 +62,7 @@ static const uint NMT_DEPTH_BITS = 16u;
 // Steps of absorbance to the octave, as a power of two.
 static const uint NMT_OCTAVE_BITS = 11u;
 static const uint NMT_HEAVY = 2u;
-// Slots of a pixel, empty ones at the end among them, a multiple of four.
+// Slots of a pixel, an empty one at the end among them where their number is odd.
 static const uint NMT_SLOTS = 4u;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 static const float NMT_KEY_SCALE = 0.625;
@@ -93,7 +93,9 @@ NmtCodes nmt_core_codes(float v0, float v1) {
     int last = asint(v1);
     int first_log2 = nmt_core_log2(first);
     uint range = uint(nmt_core_log2(last) - first_log2);
-    uint shift = max(firstbithigh(range) + 1u, NMT_DEPTH_BITS + 1u) - (NMT_DEPTH_BITS + 1u);
+    // Its length in bits, from the exponent of a float that is not rounded up to the next power of two.
+    uint exponent = asuint(float(range & ~(range >> 1))) >> 23;
+    uint shift = max(exponent, 127u + NMT_DEPTH_BITS) - (127u + NMT_DEPTH_BITS);
     uint multiplier = 0x80000000u / ((range >> shift) + 1u);
     uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
     NmtCodes codes;

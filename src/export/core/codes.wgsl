@@ -9,7 +9,7 @@ const NMT_DEPTH_BITS: u32 = CORE_DEPTH_BITSu;
 // Steps of absorbance to the octave, as a power of two.
 const NMT_OCTAVE_BITS: u32 = CORE_OCTAVE_BITSu;
 const NMT_HEAVY: u32 = CORE_HEAVYu;
-// Slots of a pixel, empty ones at the end among them, a multiple of four.
+// Slots of a pixel, an empty one at the end among them where their number is odd.
 const NMT_SLOTS: u32 = CORE_SLOTSu;
 // k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
 const NMT_KEY_SCALE: f32 = CORE_KEY_SCALE;

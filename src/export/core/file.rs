@@ -1,6 +1,8 @@
 //! Files of a core, ready to be included: with a tail that is a beta law, or with the network that shares it out.
 
-use super::{CoreBinding, LANGUAGES, MAX_SHADER_MOMENTS, codes, dialect, insert, weigh, weigh_by_network};
+use super::{
+    CoreBinding, LANGUAGES, MAX_SHADER_MOMENTS, calls_of_passes, codes, dialect, keep, weigh, weigh_by_network,
+};
 use crate::export::calls::write_resolve;
 use crate::export::files::ShaderFile;
 use crate::export::shader::{include_guard, source};
@@ -31,14 +33,19 @@ pub fn file_name(set: CoreSet, language: Target) -> String {
 
 /// The whole file in a language: how to use it, codes, insertion chain and weight.
 pub fn text(set: CoreSet, language: Target) -> String {
-    let insert = insert(language, CoreBinding::DEFAULT);
     let (about, codes) = (about(set), codes(set, language));
-    format!("{about}\n{codes}\n{insert}{}", weigh(set, language))
+    let keep = keep(set, language, CoreBinding::DEFAULT);
+    let passes = calls_of_passes(set, language);
+    format!("{about}\n{codes}\n{keep}{}{passes}", weigh(set, language))
 }
 
 /// How to use a core's file, as a comment.
 fn about(set: CoreSet) -> String {
-    let about = include_str!("about.txt")
+    let about = match set.is_blended() {
+        true => include_str!("about-ends.txt"),
+        false => include_str!("about.txt"),
+    };
+    let about = about
         .replace("CORE_HEAVY", &set.heavy.to_string())
         .replace("CORE_SLOTS", &set.stride().to_string())
         .replace("CORE_MOMENTS", &set.moments.to_string())
@@ -89,17 +96,18 @@ pub fn chain(mlp: &Mlp, language: Target, prefix: Option<&Prefix>) -> Result<Str
 }
 
 /// What stands behind the export of a network that shares out the tail of a core: codes, insertion chain, weight and
-/// `nmt_resolve`.
+/// `nmt_resolve`; of a core that blending keeps, its ends and the calls of both passes.
 ///
 /// # Panics
 /// If the network has no such core; see [`has_chain`].
 pub fn calls(mlp: &Mlp, language: Target, place: CoreBinding) -> String {
     let set = set_of(mlp);
-    let (codes, insert) = (codes(set, language), insert(language, place));
+    let (codes, keep) = (codes(set, language), keep(set, language, place));
     let resolve = Source::new(dialect(language), "nmt");
     write_resolve(&resolve);
     let weigh = weigh_by_network(set, language);
-    format!("\n{codes}\n{insert}{weigh}{}", resolve.into_text())
+    let passes = calls_of_passes(set, language);
+    format!("\n{codes}\n{keep}{weigh}{passes}{}", resolve.into_text())
 }
 
 fn set_of(mlp: &Mlp) -> CoreSet {

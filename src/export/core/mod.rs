@@ -2,10 +2,12 @@
 //! chain, in WGSL, GLSL and HLSL.
 //!
 //! The text stands in files beside this one, a pair a language; words that begin with `CORE_` are filled in.
+//! A core of both ends alone is kept by blending ([`ends`]). With heavy fragments
 //! `nmt_core_insert` needs atomics on a storage buffer in the fragment stage: WebGPU, Vulkan, Metal, Direct3D 11, GLSL
 //! 4.30, and GLSL ES 3.10 where `GL_MAX_FRAGMENT_ATOMIC_COUNTERS` and
 //! `GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS` are not 0.
 
+pub mod ends;
 mod file;
 #[cfg(test)]
 mod interleaving;
@@ -22,7 +24,7 @@ use crate::numeric::source::{Dialect, Type};
 pub const LANGUAGES: [Target; 3] = [Target::Wgsl, Target::Glsl, Target::Hlsl];
 
 /// What the pieces of a core say in GLSL, and in HLSL.
-const HLSL_FOR_GLSL: [(&str, &str); 12] = [
+const HLSL_FOR_GLSL: [(&str, &str); 11] = [
     (
         "layout(std430, binding = CORE_BINDING) coherent buffer NmtCore { uint nmt_core[]; };",
         "globallycoherent RWStructuredBuffer<uint> nmt_core : register(uCORE_BINDING);",
@@ -35,7 +37,6 @@ const HLSL_FOR_GLSL: [(&str, &str); 12] = [
         "uint old = atomicMax(nmt_core[slot], code);",
         "uint old;\n    InterlockedMax(nmt_core[slot], code, old);",
     ),
-    ("uint(findMSB(range) + 1)", "firstbithigh(range) + 1u"),
     ("\nconst ", "\nstatic const "),
     ("floatBitsToInt", "asint"),
     ("floatBitsToUint", "asuint"),
@@ -121,6 +122,22 @@ pub fn insert(language: Target, place: CoreBinding) -> String {
     piece(language, include_str!("insert.wgsl"), include_str!("insert.glsl"))
         .replace("CORE_GROUP", &place.group.to_string())
         .replace("CORE_BINDING", &place.binding.to_string())
+}
+
+/// How pass 1 keeps the core, behind [`codes`]: by blending ([`ends::values`]), or by [`insert`].
+pub fn keep(set: CoreSet, language: Target, place: CoreBinding) -> String {
+    match set.is_blended() {
+        true => ends::values(set, language),
+        false => insert(language, place),
+    }
+}
+
+/// Both passes in one call each, behind all others; none where a core is kept by [`insert`].
+pub fn calls_of_passes(set: CoreSet, language: Target) -> String {
+    match set.is_blended() {
+        true => ends::passes(set, language),
+        false => String::new(),
+    }
 }
 
 #[cfg(test)]

@@ -116,6 +116,11 @@ impl CoreSet {
         self.slots().next_multiple_of(2)
     }
 
+    /// Whether blending keeps the core: there are no heavy fragments, which need atomics.
+    pub const fn is_blended(&self) -> bool {
+        self.heavy == 0
+    }
+
     /// What pass 1 keeps of a pixel \[bits\]: 32 each for b_0..b_M and the slots, 16 for the count.
     pub const fn bits(&self) -> u32 {
         32 * (1 + self.moments as u32 + self.slots() as u32) + 16
