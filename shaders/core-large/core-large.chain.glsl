@@ -381,6 +381,10 @@ void nmt_core_insert(uint pixel, uvec2 steps, NmtCodes codes) {
     }
 }
 
+// Where the moments of the tail leave T open by no more than this, it is the middle of what they allow, and the network
+// is not asked. 0 always asks it; 1/256 cannot be seen.
+const float NMT_OPEN = 0.0;
+
 // Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
 vec2 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
     float mean = m1 * 0.9999;
@@ -519,6 +523,19 @@ float nmt_core_weigh(float z, float absorbance, vec4 depths0, vec4 absorbances0,
     vec2 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
     float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
+    if (NMT_OPEN > 0.0) {
+        float bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * ((1.0 + abs(center)) * per_h + 1.0)
+            * 4.7683716e-7 * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0
+            + abs(center)) * per_h + 1.0) / (max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
+            * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7) * max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
+            * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7));
+        float most = min(exp(-(front_8 + absorbance_of_tail * max(bounds.x - bounds_noise, 0.0))), 1.0);
+        float least = min(exp(-(front_8 + absorbance_of_tail * min(bounds.y + bounds_noise, 1.0))), 1.0);
+        if (most - least <= NMT_OPEN) {
+            float middle = 0.5 * (most + least);
+            return middle;
+        }
+    }
     return exp(-front_8) * nmt_transmittance(mat3x4(vec4(x, log2(others) * 0.33333334 - 1.0, log(absorbance_of_tail
         + 0.05), bounds.x), vec4(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
         * mean, 1e-6), 0.0, 1.0), mean_2), vec4(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2, 1e-6)) - mean_2 * mean_2)

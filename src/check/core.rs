@@ -373,7 +373,7 @@ mod tests {
             }
         };
         let core = shipped::open(Path::new("core")).unwrap();
-        for name in ["core-small", "core-large", "core"] {
+        for name in ["ends", "core-small", "core-large", "core"] {
             let mlp = shipped::open(Path::new(name)).unwrap();
             save(&mlp, None);
             assert_eq!(failed(&mlp), Vec::<String>::new());

@@ -98,7 +98,7 @@ mod tests {
     }
 
     /// The networks with a core that are shipped.
-    const NETWORKS: [&str; 3] = ["core-small", "core", "core-large"];
+    const NETWORKS: [&str; 4] = ["ends", "core-small", "core", "core-large"];
 
     /// A thread a fragment, the chain written in WGSL.
     const WGSL: &str = "
@@ -596,7 +596,7 @@ float4 main(float4 place : SV_Position, float2 f : TEXCOORD) : SV_Target {
         }
     }
 
-    /// Both ends in channels that blending compares: numbers rise as codes do, are normal and between −4 and 4, and give
+    /// Both ends in channels that blending compares: numbers rise as codes do, are normal, between −4 and 4, and give
     /// their codes back, what a channel is cleared to that of the empty slot. Control: the bits of the codes themselves
     /// are subnormal or no numbers in places.
     #[test]
@@ -636,6 +636,41 @@ fn there_and_back(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_wor
         assert!(numbers.iter().all(|x| x.is_normal() && x.abs() < 4.0));
         assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]));
         assert!(all.iter().filter(|&&code| !f32::from_bits(code).is_normal()).count() > 100);
+    }
+
+    /// What the bounds of the tail leave open by less than a display step needs no network: answers differ from the
+    /// network's by no more than that step, where it lies within the bounds, and are those of the CPU. Control: without
+    /// the switch nothing differs.
+    #[test]
+    fn what_cannot_be_seen_needs_no_network() {
+        let Some(gpu) = gpu() else { return };
+        for network in NETWORKS {
+            let list = built_in("foliage", 40);
+            let answers = |skip: Skip| {
+                let method = shader(&model(network)).with_skip(skip);
+                let on_device = DeviceList::new(gpu, &list).unwrap();
+                let range = method.depth_range(&list, None, None).unwrap();
+                let passes = Passes::new(gpu, &on_device, &method, range).unwrap();
+                passes.run(gpu).unwrap();
+                passes.weights(gpu).unwrap()
+            };
+            let (network_alone, exact, visible) = (answers(Skip::None), answers(Skip::Exact), answers(Skip::Visible));
+            assert_eq!(network_alone, exact);
+            let off =
+                |one: &[f32], other: &[f64]| within_999(one.iter().zip(other).map(|(&a, b)| (f64::from(a) - b).abs()));
+            let cpu = Neural::new(model(network)).with_skip(Skip::Visible);
+            let accumulated = cpu.accumulate(&list, Context::default()).unwrap();
+            let right = off(&visible, &oit::weights(&list, &*accumulated));
+            let differ = visible.iter().zip(&exact).filter(|(a, b)| a != b).count();
+            println!(
+                "{network}: {differ} of {} answers differ, 99.9 % within {right:.1e} of the CPU's",
+                exact.len()
+            );
+            assert!(right <= 2e-3, "{network}: {right:e}");
+            assert!(20 * differ > exact.len(), "{network}: {differ}");
+            let exact: Vec<f64> = exact.iter().map(|&t| t.into()).collect();
+            assert!(off(&visible, &exact) <= 1.0 / 256.0 + 2e-3, "{network}");
+        }
     }
 
     /// Order in which fragments are drawn: the core is the same, so that only the rounding of the sums is left, 1e-3 in

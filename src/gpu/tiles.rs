@@ -95,6 +95,8 @@ pub struct TilePasses {
     network: Kernel,
     /// The network, where fragments may be hidden; none where the method cannot tell.
     hiding: Option<Kernel>,
+    /// The network, where the bounds of a core's tail leave T open; none where there is no such network.
+    open: Option<Kernel>,
     lists: wgpu::Buffer,
     image: wgpu::Buffer,
 }
@@ -133,7 +135,7 @@ impl TilePasses {
         let kernel =
             |pass: &str, source: &str, entry| Kernel::new(gpu, &name(pass), source, entry, &shaded, core_at(TILE_CORE));
         let accumulated = [&frame, &list.offsets, view_z, alpha, &state];
-        let hiding = shaders.hiding.as_deref();
+        let listed = |pass: &str, source: Option<&str>| source.map(|source| kernel(pass, source, LISTED)).transpose();
         Ok(Self {
             name: method.name.clone(),
             width,
@@ -159,9 +161,8 @@ impl TilePasses {
                 kernel("pixels told apart by what is seen", &shaders.classify[1], CLASSIFY)?,
             ],
             network: kernel("pass 2, network", &shaders.network, LISTED)?,
-            hiding: hiding
-                .map(|source| kernel("pass 2, hidden or network", source, LISTED))
-                .transpose()?,
+            hiding: listed("pass 2, hidden or network", shaders.hiding.as_deref())?,
+            open: listed("pass 2, open or not", shaders.open.as_deref())?,
             lists,
             image,
         })
@@ -185,11 +186,11 @@ impl TilePasses {
                     vec![network, (hiding, Groups::Indirect(12))],
                 ]
             }
-            _ => vec![
-                vec![accumulate],
-                vec![(&self.classify[usize::from(skip == Skip::Visible)], all)],
-                vec![network],
-            ],
+            (Skip::Visible, None) => {
+                let network = (self.open.as_ref().unwrap_or(&self.network), Groups::Indirect(0));
+                vec![vec![accumulate], vec![(&self.classify[1], all)], vec![network]]
+            }
+            (Skip::Exact, _) => vec![vec![accumulate], vec![(&self.classify[0], all)], vec![network]],
         };
         let s = gpu.timed(&self.name, passes.len(), |index, encoder, stamps| {
             if index == 0 {

@@ -11,7 +11,7 @@ use super::tiled::Tiled;
 #[cfg(target_arch = "x86_64")]
 use crate::features::FeatureSet;
 use crate::features::core::code::{Codes, CoreFragment, Slot};
-use crate::features::core::formulas::{share_by_law, transmittance};
+use crate::features::core::formulas::{allowed, share_by_law, transmittance};
 use crate::features::core::pixel::{Between, Query, Sums, with_sums};
 use crate::features::core::{CoreSet, FIXED};
 use crate::numeric::Real;
@@ -284,7 +284,9 @@ impl Workspace<'_> {
                     None => t = Select::select(answers.is_known, t, by_law(query)),
                     Some(waiting) => {
                         if self.is_faint_known {
-                            let [most, least] = range(query, between.bounds_noise(query));
+                            let [_, _, _, lower, upper] = query.fixed;
+                            let noise = between.bounds_noise(query);
+                            let [most, least] = allowed(query.front, query.tail, [lower, upper], noise);
                             let is_faint = (most - least).simd_le(f32x16::splat(simd, 2.0 * VISIBLE));
                             let faint = unknown & is_faint.to_bitmask();
                             if faint != 0 {
@@ -322,16 +324,6 @@ fn for_each_lane(mut lanes: u64, mut f: impl FnMut(usize)) {
         f(lanes.trailing_zeros() as usize);
         lanes &= lanes - 1;
     }
-}
-
-/// The greatest and the least T that the moments of the tail allow, where rounding may have moved their bounds by
-/// `noise`.
-#[inline(always)]
-fn range<R: Real, const N: usize>(query: &Query<N, R>, noise: R) -> [R; 2] {
-    let [_, _, _, lower, upper] = query.fixed;
-    let zero = noise.like(0.0);
-    [(lower - noise).max(zero), (upper + noise).min(noise.like(1.0))]
-        .map(|share| transmittance(query.front, query.tail, share))
 }
 
 /// Transmittance by the beta law; with the spread of the uniform law where there is only a mean.

@@ -5,10 +5,11 @@ use crate::numeric::similar::suggestion;
 use std::path::Path;
 
 /// Names and model files.
-const FILES: [(&str, &str); 8] = [
+const FILES: [(&str, &str); 9] = [
     ("recommended", include_str!("../../models/recommended.json")),
     ("small", include_str!("../../models/small.json")),
     ("moments-6", include_str!("../../models/moments-6.json")),
+    ("ends", include_str!("../../models/ends.json")),
     ("core", include_str!("../../models/core.json")),
     ("core-small", include_str!("../../models/core-small.json")),
     ("core-large", include_str!("../../models/core-large.json")),

@@ -88,6 +88,7 @@ impl MomentShader {
             core: None,
             offers: Offers::default(),
             weight: WEIGHT,
+            open: 0.0,
             source: format!(
                 "{roots}\n{}{}{}",
                 self.curve_source,

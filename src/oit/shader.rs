@@ -70,6 +70,8 @@ pub struct MethodShader {
     /// The function that passes call for the weight of a fragment: `oit_weight`, or `oit_visible_weight` where that is
     /// offered.
     pub weight: &'static str,
+    /// By how much the bounds of a core's tail may leave T open where its network is not asked; 0 where it always is.
+    pub open: f32,
     /// WGSL.
     pub source: String,
 }
@@ -107,6 +109,7 @@ impl MethodShader {
             core: None,
             offers: Offers::default(),
             weight: WEIGHT,
+            open: 0.0,
             source: format!("{TOTAL}{weight}"),
         }
     }
@@ -123,6 +126,7 @@ impl MethodShader {
             core: None,
             offers: Offers::default(),
             weight: WEIGHT,
+            open: 0.0,
             source,
         }
     }
@@ -139,6 +143,7 @@ impl MethodShader {
             core: Some(set),
             offers: Offers::default(),
             weight: WEIGHT,
+            open: 0.0,
             source: String::new(),
         }
     }

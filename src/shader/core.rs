@@ -2,16 +2,21 @@
 
 use super::absorbance;
 use crate::export::Target;
+use crate::export::core::weigh::OPEN_SWITCH;
 use crate::export::core::{codes, ends, gathered, weigh, weigh_by_network};
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 
 /// Prelude and method of a core whose tail is shared out by a network, of which this is the export, or where there is
-/// none by a beta law.
-pub(super) fn module(set: CoreSet, network: &str) -> String {
+/// none by a beta law. The network is asked where the bounds leave more than `open` of T open.
+pub(super) fn module(set: CoreSet, network: &str, open: f32) -> String {
     let weigh = match network {
         "" => weigh(set, Target::Wgsl),
-        _ => weigh_by_network(set, Target::Wgsl),
+        _ => weigh_by_network(set, Target::Wgsl).replacen(
+            &format!("{OPEN_SWITCH}: f32 = 0.0;"),
+            &format!("{OPEN_SWITCH}: f32 = {open:?};"),
+            1,
+        ),
     };
     let listed = |items: Vec<String>| items.join(", ");
     let lanes = ["x", "y", "z", "w"];
@@ -52,7 +57,13 @@ fn short(weigh: &str, slots: &str, moments: &str) -> String {
         open += i32::from(c == '(') - i32::from(c == ')');
         open == 0
     });
-    let mut text = format!("{before}1.0{}", &call[end.expect("the end of the call") + 1..]);
+    let text = format!("{before}1.0{}", &call[end.expect("the end of the call") + 1..]);
+    // The switch stands above.
+    let mut text = text.replacen(
+        &format!("\nconst {OPEN_SWITCH}"),
+        &format!("\n// const {OPEN_SWITCH}"),
+        1,
+    );
     for line in weigh.lines().filter_map(|line| line.strip_prefix("fn ")) {
         let name = line.split('(').next().expect("a name");
         text = text.replace(&format!("{name}("), &format!("{}_known(", name.replace("nmt_", "oit_")));

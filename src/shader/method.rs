@@ -6,6 +6,7 @@ use crate::export::dialect::Wgsl;
 use crate::export::{Format, Target};
 use crate::features::recentred::MAX_ABSORBANCE;
 use crate::features::{FeatureSet, MomentDepthKind};
+use crate::infer;
 use crate::model::Mlp;
 use crate::numeric::source::{Dialect, component};
 use crate::oit::neural::Skip;
@@ -75,6 +76,7 @@ impl MethodShader {
             core: None,
             offers,
             weight: WEIGHT,
+            open: 0.0,
             source: format!("{export}{glue}"),
             name,
         })
@@ -96,14 +98,18 @@ impl MethodShader {
         } else {
             self.weight
         };
-        Self { weight, ..self }
+        let open = match skip {
+            Skip::Visible if self.core.is_some() && self.offers.short_weight => 2.0 * infer::core::VISIBLE,
+            _ => 0.0,
+        };
+        Self { weight, open, ..self }
     }
 
     /// Prelude and method, ready for a pass to stand behind it. Directives of the method's source, such as `enable
     /// f16;`, come first.
     pub fn module(&self) -> String {
         if let Some(set) = self.core {
-            return super::core::module(set, &self.source);
+            return super::core::module(set, &self.source, self.open);
         }
         let (directives, rest): (Vec<&str>, Vec<&str>) =
             self.source.lines().partition(|line| line.starts_with("enable "));

@@ -65,6 +65,7 @@ fn a_short_run_makes_a_table() {
         "small",
         "moments-6",
         "paper",
+        "ends",
         "core-small",
         "core",
         "core-large",

@@ -160,6 +160,7 @@ fn metal_networks_compute_the_reference() {
         "small",
         "moments-6",
         "paper",
+        "ends",
         "core",
         "core-small",
         "core-large",
@@ -282,18 +283,54 @@ int main() {
 }
 "#;
 
+/// The same where blending keeps both ends.
+const ENDS_PASSES: &str = r#"
+#include <metal_stdlib>
+#include <simd/simd.h>
+#include <cstdio>
+namespace one {
+#include "metal/pass1.metal"
+}
+namespace two {
+#include "metal/pass2.metal"
+}
+int main() {
+    constexpr int N = 12;
+    const metal::float4 place(0.5, 0.5, 0, 1);
+    const one::Frame frame1{1.5, 10.0};
+    const two::Frame frame2{1.5, 10.0};
+    float r[N][2];
+    while (std::fread(r, 8, N, stdin) == N) {
+        metal::float4 sums0(0), sums1(0), range(-3e38f);
+        for (auto &f : r) {
+            auto terms = one::pass1({f[0], metal::float4(0, 0, 0, f[1])}, place, frame1);
+            sums0 = sums0 + terms.sums0;
+            sums1 = sums1 + terms.sums1;
+            range.x = range.x < terms.range.x ? terms.range.x : range.x;
+            range.y = range.y < terms.range.y ? terms.range.y : range.y;
+        }
+        for (auto &f : r) {
+            auto out = two::pass2({f[0], metal::float4(0, 0, 0, f[1])}, place, frame2, {sums0}, {sums1}, {range});
+            float T = out.member.w / f[1];
+            std::fwrite(&T, 4, 1, stdout);
+        }
+    }
+}
+"#;
+
 /// Whole passes of cores in Metal's text against what lists of the same fragments are answered with: to 1e-5 on
 /// average, and to 1e-2 at worst, as above. Control: answers to the fragment beside.
 #[test]
 fn metal_passes_of_cores_answer_as_lists_are_answered() {
     let Some(compiler) = compiler() else { return };
-    for network in ["core-small", "core", "core-large"] {
+    let of_cores = ["core-small", "core", "core-large"].map(|network| (network, CORE_PASSES));
+    for (network, program) in of_cores.into_iter().chain([("ends", ENDS_PASSES)]) {
         let mut rng = stream(13, 3, network.len() as u64);
         let pixels = 200;
         let rows: Vec<f32> = (0..pixels * FRAGMENTS)
             .flat_map(|_| [rng.random_range(2.0f32..9.0), rng.random_range(0.05f32..0.9)])
             .collect();
-        let found = run_text(&compiler, network, CORE_PASSES, &rows);
+        let found = run_text(&compiler, network, program, &rows);
         let offsets = (0..=pixels).map(|p| (p * FRAGMENTS) as u64).collect();
         let column = |k: usize| rows.iter().skip(k).step_by(2).copied().collect();
         let list = FragmentList::new(offsets, column(0), column(1), None).unwrap();

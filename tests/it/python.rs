@@ -88,7 +88,7 @@ fn reproduces_shipped_networks() {
     let Some(python) = python() else { return };
     let at = Workplace::new();
     let root = env!("CARGO_MANIFEST_DIR");
-    for name in ["recommended", "moments-6", "core-small", "core", "core-large"] {
+    for name in ["recommended", "moments-6", "ends", "core-small", "core", "core-large"] {
         let model = format!("{root}/models/{name}.json");
         let fragments = format!("{root}/data/sample.npz");
         nmt(&["export", &model, "--out", &at.path(name)]).success();

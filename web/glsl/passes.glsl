@@ -65,7 +65,7 @@ void main() {
     if (found.alpha < 0.0) {
         discard;
     }
-    result = vec4(-found.v, found.v, 0.0, 0.0);
+    result = vec4(written_ends(found), 0.0, 0.0);
 }
 #elif PASS == END_DEPTH
 uniform sampler2D opaque_depth;

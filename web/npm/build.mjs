@@ -12,6 +12,7 @@ const networks = {
   recommended: "recommended/recommended.wgsl",
   small: "small/small.wgsl",
   moments6: "moments-6/moments-6.wgsl",
+  ends: "ends/ends.chain.wgsl",
   coreSmall: "core-small/core-small.chain.wgsl",
   core: "core/core.chain.wgsl",
   coreLarge: "core-large/core-large.chain.wgsl",

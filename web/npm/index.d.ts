@@ -8,9 +8,9 @@ import type { PassNode, PassNodeOptions, WebGPURenderer } from "three/webgpu";
 export interface NMTPassOptions extends Omit<PassNodeOptions, "samples" | "depthBuffer"> {
   /**
    * A shipped network, or the WGSL that `nmt export MODEL.json --format wgsl` writes of a network of four or six
-   * moments, or `MODEL.chain.wgsl`, which it writes of one with a core. Default: `"recommended"`.
+   * moments, or `MODEL.chain.wgsl`, which it writes of one with ends or a core. Default: `"recommended"`.
    */
-  network?: "recommended" | "small" | "moments-6" | "core-small" | "core" | "core-large" | { wgsl: string };
+  network?: "recommended" | "small" | "moments-6" | "ends" | "core-small" | "core" | "core-large" | { wgsl: string };
   /**
    * Least and greatest distance along the view direction of anything transparent, in scene units. By default it is
    * found every frame from the bounding spheres of transparent objects. Any range that holds all is right, a tight one

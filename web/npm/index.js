@@ -46,12 +46,13 @@ import {
   wgsl,
   wgslFn,
 } from "three/tsl";
-import { core, coreLarge, coreSmall, moments6, recommended, small } from "./networks.js";
+import { core, coreLarge, coreSmall, ends, moments6, recommended, small } from "./networks.js";
 
 const NETWORKS = {
   recommended,
   small,
   "moments-6": moments6,
+  ends,
   "core-small": coreSmall,
   core,
   "core-large": coreLarge,
@@ -88,6 +89,11 @@ const isDrawnHere = (material) =>
   material.backdropNode?.isNode !== true;
 
 const hasCore = (source) => source.includes("fn nmt_core_insert(");
+/** Whether its core is both ends, which blending keeps. */
+const hasEnds = (source) => source.includes("fn nmt_core_ends(");
+
+const PASS2_HEAD =
+  "fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>)";
 
 /** A network's WGSL. */
 function sourceOf(network) {
@@ -102,16 +108,13 @@ function sourceOf(network) {
         "fn nmt_core_moments(steps: vec2<u32>) -> vec4<f32>",
         "fn nmt_core_transmittance(",
       ]
-    : [
-        "fn nmt_moments(z: f32, absorbance: f32)",
-        "fn nmt_pass2(v: f32, v0: f32, v1: f32, alpha: f32, sums0: vec4<f32>, sums1: vec4<f32>, range: vec4<f32>)",
-      ];
+    : [hasEnds(source) ? "fn nmt_core_transmittance(" : "fn nmt_moments(z: f32, absorbance: f32)", PASS2_HEAD];
   needs.push("fn nmt_resolve(weighted: vec4<f32>, sums0: vec4<f32>)");
   const missing = needs.find((head) => !source.includes(head));
   if (missing !== undefined) {
     throw new Error(
       `nmtPass: the WGSL has no "${missing}"; give it the export of a network of four or six moments (feature set ` +
-        "'recentred' or 'recentred-6') or the chain of one with a core, without a prefix.",
+        "'recentred' or 'recentred-6') or the chain of one with ends or a core, without a prefix.",
     );
   }
   return source;
@@ -147,12 +150,12 @@ fn nmt_three_sums1( v: f32, alpha: f32, range: vec2<f32> ) -> vec4<f32> {${STEPS
     return vec4<f32>( nmt_core_moments( steps ).w, select( 0.0, 1.0, steps.y > 0u ), 0.0, 0.0 );
 }`,
 };
-// What is within a step of a fragment of the core is that fragment, for the same reason.
-const corePass2 = (cores) => `
+// What is within a step of a fragment of the core is that fragment, for the same reason. The core is given as vectors
+// of four words, or `made` of what is given.
+const corePass2 = (cores, given = cores.map((name) => `${name}: vec4<u32>`).join(", "), made = "") => `
 fn nmt_three_transmittance(
-    v: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>,
-    ${cores.map((name) => `${name}: vec4<u32>`).join(", ")}
-) -> f32 {${STEPS}
+    v: f32, alpha: f32, range: vec2<f32>, sums0: vec4<f32>, sums1: vec4<f32>, ${given}
+) -> f32 {${STEPS}${made}
     let words = array<vec4<u32>, ${cores.length}>( ${cores.join(", ")} );
     var own = steps;
     for ( var slot = 0u; slot < NMT_HEAVY + 2u; slot++ ) {
@@ -167,6 +170,11 @@ fn nmt_three_transmittance(
     let moments = vec4<f32>( sums0.yzw, sums1.x );
     return nmt_core_transmittance( own, codes, ${cores.join(", ")}, sums1.y, sums0.x, moments );
 }`;
+const ENDS_PASS2 = corePass2(
+  ["core0"],
+  "ends: vec4<f32>",
+  "\n    let core0 = vec4<u32>( nmt_core_ends( ends.xy ), 0u, 0u );",
+);
 const RESOLVE = `
 fn nmt_three_resolve( background: vec4<f32>, weighted: vec4<f32>, sums0: vec4<f32> ) -> vec4<f32> {
     let over = nmt_resolve( weighted, sums0 );
@@ -210,11 +218,12 @@ const texel = () => uvec2(screenCoordinate.xy);
 const [SUMS0, RANGE] = [{ name: "sums0", format: RGBAFormat }, { name: "range", format: RGFormat }];
 const sums1Of = (format) => ({ name: "sums1", format });
 
-/** A network fed by moments: the targets and the shaders of its passes. */
+/** A network fed by moments and both ends, all of it blended: the targets and the shaders of its passes. */
 class Moments {
   constructor(source) {
     this.source = wgsl(source);
     this.isOfSix = source.includes("fn nmt_moments(z: f32, absorbance: f32) -> mat2x4<f32>");
+    this.pass2 = hasEnds(source) ? ENDS_PASS2 : PASS2;
   }
 
   /** The targets of pass 1, those of each draw: one draw where the device writes all of them at once. */
@@ -233,7 +242,7 @@ class Moments {
   /** What passes in front of a fragment; `read` gives its pixel of a target. */
   transmittance(given, read) {
     const left = { sums0: read("sums0"), sums1: read("sums1"), ends: read("range") };
-    return wgslFn(PASS2, [this.source])({ ...given, ...left });
+    return wgslFn(this.pass2, [this.source])({ ...given, ...left });
   }
 
   /** At the start of a frame. */

@@ -4,6 +4,8 @@ export const recommended: string;
 export const small: string;
 /** WGSL of the network `moments-6`: 9-32-16-1, 816 multiply-adds a fragment. */
 export const moments6: string;
+/** WGSL of both passes with the network `ends`: 9-32-16-1, 816 multiply-adds a fragment. */
+export const ends: string;
 /** WGSL of both passes with the network `core-small`: 9-14-8-1, 246 multiply-adds a fragment. */
 export const coreSmall: string;
 /** WGSL of both passes with the network `core`: 9-32-16-1, 816 multiply-adds a fragment. */

@@ -1,5 +1,5 @@
 // The methods of WebGL 2: what methods.js says of them, in GLSL ES 3.00. `ends` says that pass 2 looks at nearest and
-// farthest fragment.
+// farthest fragment, `writtenEnds` what a fragment writes of itself where that is not -v and v.
 
 // Absorbance and moment depth, of methods whose own files have none, are those of a network's file.
 const COMMON = "shaders/small/small.glsl";
@@ -11,10 +11,10 @@ float total(ivec2 at) {
 }
 `;
 
-function network(name) {
+function network(name, file = `${name}.glsl`) {
   return {
     rounds: true,
-    functions: [`shaders/${name}/${name}.glsl`],
+    functions: [`shaders/${name}/${file}`],
     formats: ["rgba32f", "rg32f"],
     half: ["rgba16f", "rg16f"],
     ends: true,
@@ -36,6 +36,19 @@ float weight(Surface s, ivec2 at) {
 }
 `,
     total: FIRST_IS_TOTAL,
+  };
+}
+
+/** The same where the ends are codes of fragments. */
+function ends(name) {
+  return {
+    ...network(name, `${name}.chain.glsl`),
+    half: undefined,
+    writtenEnds: `
+vec2 written_ends(Surface s) {
+    return nmt_pass1(s.v, frame.range.x, frame.range.y, s.alpha).range.xy;
+}
+`,
   };
 }
 
@@ -124,4 +137,5 @@ float total(ivec2 at) {
   },
   small: network("small"),
   recommended: network("recommended"),
+  ends: ends("ends"),
 };

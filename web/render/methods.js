@@ -26,14 +26,14 @@ const add = (format) => ({ format, operation: "add", clear: [0, 0, 0, 0] });
 const ENDS = { format: "rg32float", operation: "max", clear: [-3e38, -3e38, 0, 0] };
 
 /** A network whose pass 1 is blended: four moments, number of fragments, both ends. */
-function network(name, title, note) {
+function network(name, title, note, file = `${name}.wgsl`) {
   return {
     name,
     title,
     note,
     kind: "blended",
     bits: 32 * 8,
-    functions: [`shaders/${name}/${name}.wgsl`],
+    functions: [`shaders/${name}/${file}`],
     targets: [add("rgba32float"), add("rg32float"), ENDS],
     rounds: true,
     // Sums as f16 where f32 cannot be blended into; the ends are then two depth buffers.
@@ -56,6 +56,11 @@ fn weight(s: Surface, at: vec2<i32>) -> f32 {
 `,
     total: FIRST_IS_TOTAL,
   };
+}
+
+/** The same where the ends are codes of fragments, which are taken out of sums that f16 is too coarse for. */
+function ends(name, title, note) {
+  return { ...network(name, title, note, `${name}.chain.wgsl`), half: undefined };
 }
 
 /** A network whose pass 1 keeps single fragments by atomics: both ends, the heaviest of the rest, and sums over all. */
@@ -208,6 +213,7 @@ fn total(at: vec2<i32>) -> f32 {
   },
   network("small", "NMT small", "four moments and both ends; 7-16-8-1, 248 multiply-adds a fragment"),
   network("recommended", "NMT recommended", "four moments and both ends; 7-32-16-1, 752 multiply-adds a fragment"),
+  ends("ends", "NMT ends", "four moments, and both ends with their absorbance; 32-16-1 for what they do not answer"),
   core("core-small", "NMT core-small", 2, "14-8-1, 246 multiply-adds for what the core does not answer"),
   core("core", "NMT core", 4, "32-16-1 for what the core does not answer"),
   core("core-large", "NMT core-large", 6, "48-24-1 for what the core does not answer"),

@@ -185,9 +185,11 @@ export class WebGlRenderer {
             functions = await texts(m.functions);
             if (!this.blends32)
               functions = functions.replace(/(const float \w*NMT_ROUNDING = )[^;]+;/, "$19.765625e-4;");
-            if (pass === "FIRST") functions += (m.prepass ? this.endsText(m) : "") + m.accumulate;
+            if (pass === "ENDS") functions += m.writtenEnds;
+            else if (pass === "FIRST") functions += (m.prepass ? this.endsText(m) : "") + m.accumulate;
             else functions += this.stateText(m) + (pass === "SECOND" ? m.weight : m.total);
           }
+          if (pass === "ENDS" && !m) functions = "vec2 written_ends(Surface s) {\n    return vec2(-s.v, s.v);\n}\n";
           const source = `${frame}\n${geometry}\n${functions}\n${await text("web/glsl/passes.glsl")}`;
           return this.link(key, head("VERTEX") + vertex, head("FRAGMENT") + source);
         })(),
@@ -479,7 +481,7 @@ export class WebGlRenderer {
       this.program("FIRST", { kind, name }),
       this.program("SECOND", { kind, name }),
       this.program("RESOLVE", { name }),
-      ends && this.program(ends, { kind }),
+      ends && this.program(ends, { kind, name: m.writtenEnds ? name : null }),
     ]);
   }
 

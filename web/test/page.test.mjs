@@ -83,7 +83,7 @@ function npy(file) {
   return new Float32Array(bytes.buffer.slice(bytes.byteOffset + start, bytes.byteOffset + bytes.length));
 }
 
-const NETWORKS = ["small", "recommended"];
+const NETWORKS = ["small", "recommended", "ends"];
 const CORES = ["core-small", "core", "core-large"];
 const TOLERANCE = 2e-3;
 const SHARE = 0.999;

@@ -81,6 +81,7 @@ for (const [title, dense, layers, factor] of [
           small: nmtPass(scene, camera, { network: "small" }),
           recommended: nmtPass(scene, camera),
           "moments-6": nmtPass(scene, camera, { network: "moments-6" }),
+          ends: nmtPass(scene, camera, { network: "ends" }),
           "core-small": nmtPass(scene, camera, { network: "core-small" }),
           core: nmtPass(scene, camera, { network: "core" }),
           "core-large": nmtPass(scene, camera, { network: "core-large" }),
@@ -247,7 +248,7 @@ const drawsRightly = async (network) => {
   assert.match(found.webgl, /needs WebGPU/);
   await page.close();
 };
-for (const network of ["recommended", "moments-6", "core"]) {
+for (const network of ["recommended", "moments-6", "ends", "core"]) {
   test(`${network}: one layer, one colour, opaque depth, resizing, a transparent background, disposal`, () =>
     drawsRightly(network));
 }

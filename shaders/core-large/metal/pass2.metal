@@ -57,6 +57,7 @@ constant uint NMT_LAST_DEPTH = 65535u;
 constant uint NMT_END_BITS = 16u;
 constant uint NMT_LINEAR_BITS = 981467136u;
 constant float NMT_LINEAR = 0.0009765625;
+constant float NMT_OPEN = 0.0;
 
 float nmt_share(
     metal::float3x4 f
@@ -397,8 +398,17 @@ float nmt_core_weigh(
     metal::float2 _e703 = nmt_core_bounds(x_1, m1_1, m2_1, m3_1, m4_1);
     float mean_1 = metal::clamp(m1_1 * 1.0, -1.0, 1.0);
     float mean_2 = metal::clamp((m1_1 - m3_1) * (1.0 / metal::max(1.0 - m2_1, 0.000001)), -1.0, 1.0);
-    float _e772 = nmt_transmittance(metal::float3x4(metal::float4(x_1, (metal::log2(others) * 0.33333334) - 1.0, metal::log(absorbance_of_tail + 0.05), _e703.x), metal::float4(_e703.y, mean_1, metal::clamp(((m2_1 * 1.0) - (mean_1 * mean_1)) / metal::max(1.0 - (mean_1 * mean_1), 0.000001), 0.0, 1.0), mean_2), metal::float4(metal::sqrt(metal::clamp((((m2_1 - m4_1) * (1.0 / metal::max(1.0 - m2_1, 0.000001))) - (mean_2 * mean_2)) / metal::max(1.0 - (mean_2 * mean_2), 0.000001), 0.0, 1.0)), 0.0, 0.0, 0.0)));
-    return metal::exp(-(front_8)) * _e772;
+    if (false) {
+        float bounds_noise = ((((((b0 / metal::max(absorbance_of_tail, 0.000000000001)) * (((1.0 + metal::abs(center)) * per_h) + 1.0)) * 0.00000047683716) * (((1.0 + metal::abs(center)) * per_h) + 1.0)) * (((1.0 + metal::abs(center)) * per_h) + 1.0)) * (((1.0 + metal::abs(center)) * per_h) + 1.0)) / (metal::max(metal::clamp(((m2_1 * 1.0) - (mean_1 * mean_1)) / metal::max(1.0 - (mean_1 * mean_1), 0.000001), 0.0, 1.0) * (1.0 - (mean_1 * mean_1)), 0.0000001) * metal::max(metal::clamp(((m2_1 * 1.0) - (mean_1 * mean_1)) / metal::max(1.0 - (mean_1 * mean_1), 0.000001), 0.0, 1.0) * (1.0 - (mean_1 * mean_1)), 0.0000001));
+        float most = metal::min(metal::exp(-((front_8 + (absorbance_of_tail * metal::max(_e703.x - bounds_noise, 0.0))))), 1.0);
+        float least = metal::min(metal::exp(-((front_8 + (absorbance_of_tail * metal::min(_e703.y + bounds_noise, 1.0))))), 1.0);
+        if ((most - least) <= NMT_OPEN) {
+            float middle = 0.5 * (most + least);
+            return middle;
+        }
+    }
+    float _e872 = nmt_transmittance(metal::float3x4(metal::float4(x_1, (metal::log2(others) * 0.33333334) - 1.0, metal::log(absorbance_of_tail + 0.05), _e703.x), metal::float4(_e703.y, mean_1, metal::clamp(((m2_1 * 1.0) - (mean_1 * mean_1)) / metal::max(1.0 - (mean_1 * mean_1), 0.000001), 0.0, 1.0), mean_2), metal::float4(metal::sqrt(metal::clamp((((m2_1 - m4_1) * (1.0 / metal::max(1.0 - m2_1, 0.000001))) - (mean_2 * mean_2)) / metal::max(1.0 - (mean_2 * mean_2), 0.000001), 0.0, 1.0)), 0.0, 0.0, 0.0)));
+    return metal::exp(-(front_8)) * _e872;
 }
 
 metal::float2 nmt_core_slot(

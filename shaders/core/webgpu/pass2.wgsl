@@ -190,6 +190,10 @@ fn nmt_core_heavy_steps(code: u32, codes: NmtCodes) -> vec2<u32> {
     return vec2<u32>(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
 }
 
+// Where the moments of the tail leave T open by no more than this, it is the middle of what they allow, and the network
+// is not asked. 0 always asks it; 1/256 cannot be seen.
+const NMT_OPEN: f32 = 0.0;
+
 // Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
 fn nmt_core_bounds(x: f32, m1: f32, m2: f32, m3: f32, m4: f32) -> vec2<f32> {
     let mean = m1 * 0.9999;
@@ -312,6 +316,19 @@ fn nmt_core_weigh(z: f32, absorbance: f32, depths0: vec4<f32>, absorbances0: vec
     let bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     let mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
     let mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
+    if (NMT_OPEN > 0.0) {
+        let bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * ((1.0 + abs(center)) * per_h + 1.0) * 4.7683716e-7
+            * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h
+            + 1.0) / (max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0)
+            * (1.0 - mean * mean), 1e-7) * max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
+            * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7));
+        let most = min(exp(-(front_6 + absorbance_of_tail * max(bounds.x - bounds_noise, 0.0))), 1.0);
+        let least = min(exp(-(front_6 + absorbance_of_tail * min(bounds.y + bounds_noise, 1.0))), 1.0);
+        if (most - least <= NMT_OPEN) {
+            let middle = 0.5 * (most + least);
+            return middle;
+        }
+    }
     return exp(-front_6) * nmt_transmittance(mat3x4<f32>(vec4<f32>(x, log2(others) * 0.33333334 - 1.0,
         log(absorbance_of_tail + 0.05), bounds.x), vec4<f32>(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
         * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0), mean_2), vec4<f32>(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0

@@ -8,8 +8,8 @@ use crate::export::Target;
 use crate::export::shader::ENTRY;
 use crate::features::core::CoreSet;
 use crate::features::core::formulas::{
-    absorbance_of, described, fixed_features, normalised, place_noise, recentred, share_by_law, share_of_one,
-    share_of_two, transmittance, without,
+    absorbance_of, allowed, bounds, bounds_noise, described, fixed_features, normalised, place_noise, recentred,
+    share_by_law, share_of_one, share_of_two, transmittance, without,
 };
 use crate::model::Mlp;
 use crate::numeric::real::{Constant, Real, c};
@@ -129,6 +129,10 @@ struct Query<R: Real, const N: usize> {
     x: R,
     /// Fragments of the tail.
     count: R,
+    /// Absorbance of the pixel.
+    total: R,
+    /// Middle of its range, and one over half of it.
+    range: [R; 2],
     /// The share of the tail in front where exact rules say it.
     exact: R,
     /// Whether they do.
@@ -138,8 +142,13 @@ struct Query<R: Real, const N: usize> {
 impl<R: Real, const N: usize> Query<R, N> {
     /// What a network is asked, in the order of the feature set's columns.
     fn features(&self) -> Vec<R> {
-        let fixed = fixed_features(self.x, self.count, self.tail, self.m);
-        fixed.into_iter().chain(described(self.m).into_iter().skip(1)).collect()
+        self.row(bounds(self.x, self.m), described(self.m))
+    }
+
+    /// The same from the bounds and the description of the tail.
+    fn row(&self, bounds: [R; 2], described: [R; N]) -> Vec<R> {
+        let fixed = fixed_features(self.x, self.count, self.tail, bounds);
+        fixed.into_iter().chain(described.into_iter().skip(1)).collect()
     }
 }
 
@@ -196,6 +205,8 @@ fn query<R: Real, const N: usize>(own: Entry<R>, core: &[Entry<R>], n: R, b: [R;
         m,
         x,
         count,
+        total: b[0],
+        range: [center, per_h],
         exact,
         is_exact: count.lt(c(exact_tail(N - 1))) | own.z.ge(far) | own.z.le(near),
     }
@@ -248,6 +259,11 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     parameters.extend(names.iter().flatten().map(|name| (&name[..], Type::Vec4)));
     parameters.extend([("n", Type::Real), ("b0", Type::Real), ("moments", Type::Vec4)]);
     let source = Source::new(dialect(language), "nmt_core");
+    if tail == Tail::Network {
+        let about = "Where the moments of the tail leave T open by no more than this, it is the middle of what they \
+                     allow, and the network is not asked. 0 always asks it; 1/256 cannot be seen.";
+        source.constant(OPEN_SWITCH, about, 0.0);
+    }
     source.begin_function(
         "nmt_core_weigh",
         "Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), \
@@ -275,13 +291,27 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     source.into_text()
 }
 
+/// By how much the bounds may leave T open where a network is spared.
+pub const OPEN_SWITCH: &str = "NMT_OPEN";
+
 /// Ends a function: exact rules, and the exported network where there are none. It answers with e^−(tail in front).
 fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, N>) {
     source.begin_if(q.is_exact);
     transmittance(q.front, q.tail, q.exact).named("known");
     source.statement("return known;");
     source.end_if();
-    let row = source.numbers(&q.features());
+    let (bounds, described) = (bounds(q.x, q.m), described(q.m));
+    let open = source.real(OPEN_SWITCH);
+    source.begin_if(open.gt(c(0.0)));
+    let noise = bounds_noise::<_, N>(q.total, q.tail, q.range, [described[1], described[2.min(N - 1)]]);
+    let [most, least] = allowed(q.front, q.tail, bounds, noise.named("bounds_noise"));
+    let (most, least) = (most.named("most"), least.named("least"));
+    source.begin_if((most - least).le(open));
+    (c(0.5) * (most + least)).named("middle");
+    source.statement("return middle;");
+    source.end_if();
+    source.end_if();
+    let row = source.numbers(&q.row(bounds, described));
     let answer = source.call(ENTRY, &[row]);
     source.return_value((-q.front).exp() * answer);
 }

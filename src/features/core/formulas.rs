@@ -286,11 +286,16 @@ pub fn bounds_noise<R: Real, const N: usize>(total: R, tail: R, [center, per_h]:
     }
 }
 
-/// The features that stand in front of means and spreads: x, count, ln_b0, lower, upper. `count` and `tail` are number
-/// and absorbance of the tail, `m` its moments.
+/// The greatest and the least T that bounds of the share in front allow, where rounding may have moved them by `noise`.
 #[inline(always)]
-pub fn fixed_features<R: Real, const N: usize>(x: R, count: R, tail: R, m: [R; N]) -> [R; FIXED] {
-    let [lower, upper] = bounds(x, m);
+pub fn allowed<R: Real>(front: R, tail: R, [lower, upper]: [R; 2], noise: R) -> [R; 2] {
+    [(lower - noise).max(c(0.0)), (upper + noise).min(c(1.0))].map(|share| transmittance(front, tail, share))
+}
+
+/// The features that stand in front of means and spreads: x, count, ln_b0, lower, upper. `count` and `tail` are number
+/// and absorbance of the tail, `[lower, upper]` the bounds of its share in front.
+#[inline(always)]
+pub fn fixed_features<R: Real>(x: R, count: R, tail: R, [lower, upper]: [R; 2]) -> [R; FIXED] {
     [x, count_feature(count), absorbance_feature(tail), lower, upper]
 }
 

@@ -2,7 +2,7 @@
 
 use super::code::{Codes, CoreFragment, EMPTY, MAX_SLOTS, Slot};
 use super::formulas::{
-    absorbance_of, bounds_noise, described, fixed_features, normalised, place_noise, recentred, share_of_one,
+    absorbance_of, bounds, bounds_noise, described, fixed_features, normalised, place_noise, recentred, share_of_one,
     share_of_two, without,
 };
 use super::{CoreSet, FIXED};
@@ -215,7 +215,7 @@ impl<const N: usize> Between<N> {
             query: Query {
                 front,
                 tail: absorbance,
-                fixed: fixed_features(x, count, absorbance, m),
+                fixed: fixed_features(x, count, absorbance, bounds(x, m)),
                 described: described(m),
             },
         }

@@ -8,6 +8,7 @@ use super::{MethodShader, core};
 use crate::export::core::known_fragments;
 use crate::features::core::CoreSet;
 use crate::features::visible::{FAINT, HIDDEN, MIN_WEIGHT};
+use crate::oit::neural::Skip;
 use crate::oit::shader::{Composite, Pass1};
 
 /// Entry point of pass 1, a thread a pixel, 64 to a workgroup.
@@ -182,6 +183,8 @@ pub struct TileShaders {
     pub network: String,
     /// Listed pixels in which fragments may be hidden; none where the method cannot tell.
     pub hiding: Option<String>,
+    /// Listed pixels, the network where the bounds of a core's tail leave T open; none where there is no such network.
+    pub open: Option<String>,
     /// Vectors of four numbers that pass 1 leaves of a pixel.
     pub vectors: usize,
 }
@@ -206,12 +209,18 @@ impl TileShaders {
             .replace("OIT_HIDDEN", &format!("{HIDDEN:?}"))
             .replace("OIT_LEAST_WEIGHT", &format!("{MIN_WEIGHT:?}"));
         let hiding = method.offers.visibility.then(|| listed(&shared, &hiding, "1u"));
+        let spared = method.clone().with_skip(Skip::Visible);
+        let open = (spared.open > 0.0).then(|| {
+            let text = format!("{}{}", spared.module(), &shared[module.len()..]);
+            listed(&text, include_str!("network.wgsl"), "0u")
+        });
         Self {
             accumulate: format!("{module}{FRAME}{}", state.accumulate()),
             every: format!("{shared}{}", include_str!("every.wgsl")),
             classify: [false, true].map(|visible| format!("{shared}{}", classify(method, visible))),
             network: listed(&shared, include_str!("network.wgsl"), "0u"),
             hiding,
+            open,
             vectors: state.vectors(),
         }
     }

@@ -1,0 +1,165 @@
+#version 430
+// OpenGL 4.3, pass 1: draw every transparent surface, in any order, without writing depth.
+//
+// glBlendFunc(GL_ONE, GL_ONE); glBlendEquationi(i, ...) with GL_FUNC_ADD, and with GL_MAX for target 2.
+// Target 0: GL_RGBA32F, cleared to 0.
+// Target 1: GL_RG32F, cleared to 0.
+// Target 2: GL_RG32F, cleared to -3e38.
+//
+// Neural moment transparency: network 'ends', 9-32-16-1, 816 multiply-adds.
+// Provenance: nmt 0.1.0, commit a11f08561d89, backend fused, seed 1, epochs 1500, dataset 381d5ef98678649c941c2c4c7bd79249c8745cf2398e785a10c209e31313e407.
+// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+
+const uint NMT_DEPTH_BITS = 16u;
+// Steps of absorbance to the octave, as a power of two.
+const uint NMT_OCTAVE_BITS = 11u;
+const uint NMT_HEAVY = 0u;
+// Slots of a pixel, an empty one at the end among them where their number is odd.
+const uint NMT_SLOTS = 2u;
+// k 2^(NMT_OCTAVE_BITS - 15), of the key A / v^k.
+const float NMT_KEY_SCALE = 0.625;
+// The last step of absorbance, that of A = 10.
+const uint NMT_LAST_ABSORBANCE = 27136u;
+const uint NMT_LAST_DEPTH = (1u << NMT_DEPTH_BITS) - 1u;
+const uint NMT_END_BITS = 32u - NMT_DEPTH_BITS;
+// Bits of 2^-10, below which steps of absorbance are linear.
+const uint NMT_LINEAR_BITS = 0x3a800000u;
+const float NMT_LINEAR = 0.0009765625;
+
+// Codes of a scene. The same for every fragment of a frame, in both passes.
+struct NmtCodes { int first_bits; int last_bits; int first_log2; uint shift; uint multiplier; uint slope; };
+
+// Logarithm of base 2 of the positive number with these bits, in units of 2^-23 octaves and 127 octaves more, by
+// integers alone: bits are a logarithm that is linear in each octave, and a parabola bends it.
+int nmt_core_log2(int bits) {
+    int m = bits & 0x007fffff;
+    int h = m >> 11;
+    int l = m & 2047;
+    int t = ((h * (4096 - h)) >> 1) + ((l * (2048 - h)) >> 11);
+    return bits + ((11 * t) >> 5);
+}
+
+// Codes of a scene whose view depths lie in [v0, v1], 0 < v0 <= v1.
+NmtCodes nmt_core_codes(float v0, float v1) {
+    int first = floatBitsToInt(v0);
+    int last = floatBitsToInt(v1);
+    int first_log2 = nmt_core_log2(first);
+    uint range = uint(nmt_core_log2(last) - first_log2);
+    // Its length in bits, from the exponent of a float that is not rounded up to the next power of two.
+    uint exponent = floatBitsToUint(float(range & ~(range >> 1))) >> 23;
+    uint shift = max(exponent, 127u + NMT_DEPTH_BITS) - (127u + NMT_DEPTH_BITS);
+    uint multiplier = 0x80000000u / ((range >> shift) + 1u);
+    uint room = (1u << NMT_END_BITS) - 1u - NMT_LAST_ABSORBANCE;
+    NmtCodes codes;
+    codes.first_bits = first;
+    codes.last_bits = last;
+    codes.first_log2 = first_log2;
+    codes.shift = shift;
+    codes.multiplier = multiplier;
+    codes.slope = min(uint(float(range >> 8u) * NMT_KEY_SCALE), room);
+    return codes;
+}
+
+// Absorbance min(-ln(1 - alpha), 10) of an opacity.
+float nmt_core_absorbance_of(float alpha) {
+    return -log(max(1.0 - alpha, 0.000045399931));
+}
+
+// Steps of a fragment of view depth v.
+uvec2 nmt_core_steps(float v, float absorbance, NmtCodes codes) {
+    int place = nmt_core_log2(clamp(floatBitsToInt(v), codes.first_bits, codes.last_bits));
+    uint w = uint(place - codes.first_log2) >> codes.shift;
+    uint a = floatBitsToUint(clamp(absorbance, 0.0, 10.0) + NMT_LINEAR) - NMT_LINEAR_BITS;
+    return uvec2(
+        (w * codes.multiplier) >> (31u - NMT_DEPTH_BITS),
+        (a + (1u << (22u - NMT_OCTAVE_BITS))) >> (23u - NMT_OCTAVE_BITS)
+    );
+}
+
+// Moment depth that steps stand for, within (-1, 1).
+float nmt_core_depth(uvec2 steps) {
+    return float(2u * steps.x + 1u) * (1.0 / float(NMT_LAST_DEPTH + 1u)) - 1.0;
+}
+
+// Absorbance that steps stand for.
+float nmt_core_absorbance(uvec2 steps) {
+    return uintBitsToFloat(NMT_LINEAR_BITS + (steps.y << (23u - NMT_OCTAVE_BITS))) - NMT_LINEAR;
+}
+
+// Moments of a fragment: what pass 1 adds to b1, b2, b3, b4 of its pixel, beside its absorbance to b0.
+vec4 nmt_core_moments(uvec2 steps) {
+    float z = nmt_core_depth(steps);
+    float first = nmt_core_absorbance(steps) * z;
+    float second = first * z;
+    float third = second * z;
+    return vec4(first, second, third, third * z);
+}
+
+// Codes in the three kinds of slots, and back. The greater code stays in a slot.
+uint nmt_core_nearest_code(uvec2 steps) {
+    return ((NMT_LAST_DEPTH - steps.x) << NMT_END_BITS) | steps.y;
+}
+
+uint nmt_core_farthest_code(uvec2 steps) {
+    return (steps.x << NMT_END_BITS) | steps.y;
+}
+
+// Both ends of a pixel stand in two channels of a render target, of which blending keeps the greater: the codes of
+// their slots as numbers that rise as codes do, none of them subnormal, infinite or NaN.
+float nmt_core_end_value(uint code) {
+    // Steps of absorbance leave a bit unused, which is left out.
+    uint low = NMT_END_BITS - 1u;
+    int rank = int(((code >> NMT_END_BITS) << low) | (code & ((1u << low) - 1u))) - 0x40000000;
+    return uintBitsToFloat(rank >= 0 ? 0x00800000u + uint(rank) : 0x80800000u + uint(-1 - rank));
+}
+
+// What a fragment writes there, by its steps; the nearest comes first. One that absorbs nothing is no end.
+vec2 nmt_core_end_values(uvec2 steps) {
+    bool absorbs = steps.y > 0u;
+    return vec2(
+        nmt_core_end_value(absorbs ? nmt_core_nearest_code(steps) : 0u),
+        nmt_core_end_value(absorbs ? nmt_core_farthest_code(steps) : 0u)
+    );
+}
+
+// What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.
+struct NmtSums {
+    // (b0, b1, b2, b3): blended by addition, cleared to 0.
+    vec4 sums0;
+    // (b4, number of fragments that absorb, 0, 0): blended by addition, cleared to 0.
+    vec4 sums1;
+    // (nearest, farthest, 0, 0) as nmt_core_end_values has them: blended by max, cleared to -3e38. Two channels, f32
+    // always.
+    vec4 range;
+};
+
+// Pass 1 in one call. v is distance along the view direction, the same bits in both passes; v0 and v1 are the least and
+// the greatest v of the scene.
+NmtSums nmt_pass1(float v, float v0, float v1, float alpha) {
+    uvec2 steps = nmt_core_steps(v, nmt_core_absorbance_of(alpha), nmt_core_codes(v0, v1));
+    float absorbance = nmt_core_absorbance(steps);
+    vec4 b = nmt_core_moments(steps);
+    float n = steps.y > 0u ? 1.0 : 0.0;
+    NmtSums sums;
+    sums.sums0 = vec4(absorbance, b.x, b.y, b.z);
+    sums.sums1 = vec4(b.w, n, 0.0, 0.0);
+    sums.range = vec4(nmt_core_end_values(steps), 0.0, 0.0);
+    return sums;
+}
+
+// Distance along the view direction.
+layout(location = 0) in float v;
+// Not premultiplied.
+layout(location = 1) in vec4 color;
+layout(location = 0) out vec4 sums0;
+layout(location = 1) out vec4 sums1;
+layout(location = 2) out vec4 range;
+// Least and greatest v of what is transparent.
+layout(location = 0) uniform vec2 v_range;
+
+void main() {
+    NmtSums sums = nmt_pass1(v, v_range.x, v_range.y, color.a);
+    sums0 = sums.sums0;
+    sums1 = sums.sums1;
+    range = sums.range;
+}
