@@ -113,8 +113,10 @@ for (const [scene, api, detail] of [
       );
       assert.ok(share >= SHARE, `${name}: ${share} within ${TOLERANCE}`);
       // The page measures what nmt evaluate does: to 2 %, and to 1e-8, what images that are 1e-4 apart may differ by.
+      // Peeling takes one of two fragments at one depth: one pixel of four thousand is another.
       const expected = errors[`neural:${name}`];
-      assert.ok(Math.abs(found.mse - expected) <= 0.02 * expected + 1e-8, `${found.mse} against ${expected}`);
+      const apart = api ? 1e-6 : 1e-8;
+      assert.ok(Math.abs(found.mse - expected) <= 0.02 * expected + apart, `${found.mse} against ${expected}`);
       // Control: the other network's image is another.
       const other = images[`neural:${name === "small" ? "recommended" : "small"}`];
       assert.ok(compare(found.image, other, TOLERANCE).share < SHARE, "the control passed");
