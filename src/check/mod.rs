@@ -573,6 +573,25 @@ fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
         .transpose()
 }
 
+/// What to do about an export that is not there: to write it, or to check what is.
+fn remedy(mlp: &Mlp, folder: &Path, missing: Format) -> String {
+    let name = missing.name();
+    let there: Vec<&str> = Format::all()
+        .filter(|format| format.path(folder, mlp).is_file())
+        .map(Format::name)
+        .collect();
+    if there.is_empty() {
+        return format!(
+            "the folder holds no export of '{}'; 'nmt export' writes them",
+            mlp.name()
+        );
+    }
+    format!(
+        "'nmt export --format {name}' writes it, and 'nmt check --format {}' checks what is there",
+        there.join(",")
+    )
+}
+
 /// Checks every export of a network that stands in a folder; nothing is written.
 ///
 /// A format that is not there is a failed finding that names the file. An export that says that units were taken out
@@ -593,12 +612,8 @@ pub fn check(
         let bytes = match read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
-                findings.push(Finding::new(
-                    format,
-                    "nmt",
-                    "is there",
-                    Err(format!("{error}; 'nmt export' writes it")),
-                ));
+                let why = format!("{error}; {}", remedy(mlp, folder, format));
+                findings.push(Finding::new(format, "nmt", "is there", Err(why)));
                 continue;
             }
         };

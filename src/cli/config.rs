@@ -38,8 +38,25 @@ struct Head {
     extends: Option<PathBuf>,
 }
 
+/// The configuration that a word was probably meant for: a file of that name with its ending, here or in `configs`.
+fn meant(path: &Path) -> Option<PathBuf> {
+    let file = path.with_added_extension("toml");
+    let candidates = [
+        file.clone(),
+        Path::new("configs").join(path),
+        Path::new("configs").join(file),
+    ];
+    candidates.into_iter().find(|candidate| candidate.is_file())
+}
+
 fn text_of(path: &Path) -> anyhow::Result<String> {
-    let bytes = read(path)?;
+    let bytes = read(path).map_err(|error| match meant(path) {
+        Some(meant) => anyhow::anyhow!("{error}; did you mean '{}'?", meant.display()),
+        None if path.extension().is_none() => {
+            anyhow::anyhow!("{error}; a configuration is a file that ends in .toml, such as configs/paper.toml")
+        }
+        None => error.into(),
+    })?;
     let text = std::str::from_utf8(without_mark(&bytes));
     let text = text.with_context(|| {
         format!(

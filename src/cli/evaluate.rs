@@ -9,12 +9,12 @@ mod unfinished;
 
 use super::Verdict;
 use super::predict::SkipName;
-use super::scene::{SceneOptions, ViewOptions, load, load_in_random_order, moving_scene, refuse_outside};
+use super::scene::{SceneOptions, ViewOptions, load, load_in_random_order, look_at, moving_scene, refuse_outside};
 use super::ui::Ui;
 use crate::evaluate::gpu::{self, GpuResult};
 use crate::evaluate::judge::by_error;
 use crate::evaluate::order::{fragment_orders, judge_in_orders};
-use crate::evaluate::picture::{Sheet, file_stem, write_flip, write_floats, write_image, write_method};
+use crate::evaluate::picture::{FLIP_TOP, Sheet, file_stem, write_flip, write_floats, write_image, write_method};
 use crate::evaluate::{EvaluateError, Image, Judged, MethodResult, OrderedList, Shuffled, Tinted, TintedResult, Truth};
 use crate::gpu::Gpu;
 use crate::numeric::file::{Replace, may_write, read, write_atomically};
@@ -174,8 +174,9 @@ impl SceneResults {
 
 impl Evaluate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
-        let mut session = self.session(ui)?;
         let scenes = self.scenes();
+        scenes.iter().try_for_each(|scene| look_at(scene))?;
+        let mut session = self.session(ui)?;
         let names = scene_names(&scenes);
         if self.shadows {
             let named: Vec<(OsString, String)> = scenes.into_iter().zip(names).collect();
@@ -184,9 +185,11 @@ impl Evaluate {
             }
             return Ok(Verdict::Fine);
         }
+        let models = self.model_files()?;
+        Unfinished::may_begin(&self.out, &models, session.replace, &names)?;
         let lists = session.lists(&scenes)?;
         let unfinished;
-        (unfinished, session.replace) = Unfinished::begin(&self.out, &self.model_files()?, session.replace)?;
+        (unfinished, session.replace) = Unfinished::begin(&self.out, &models, session.replace)?;
         let mut results = Vec::new();
         for ((scene, name), list) in scenes.iter().zip(&names).zip(lists) {
             let found = match unfinished.restore(name, &list) {
@@ -228,6 +231,7 @@ impl Evaluate {
         if let Some(wrong) = self.tint.filter(|s| !(0.0..=1.0).contains(s)) {
             bail!("--tint {wrong}: a strength lies from 0 to 1");
         }
+        let methods = self.requested()?;
         may_write(&self.out.join(RESULTS), replace)?;
         Ok(Session {
             options: self,
@@ -235,7 +239,7 @@ impl Evaluate {
             replace,
             context: self.view.context()?,
             background: self.view.background()?,
-            methods: self.requested()?,
+            methods,
             gpu: if self.gpu { Some(Gpu::shared()?) } else { None },
         })
     }
@@ -250,10 +254,10 @@ impl Evaluate {
 impl Session<'_> {
     /// The fragments of all scenes, so that whatever is wrong with the last is said before the first is judged.
     fn lists(&self, scenes: &[OsString]) -> anyhow::Result<Vec<FragmentList>> {
+        if self.options.frames.is_some() {
+            scenes.iter().try_for_each(|scene| moving_scene(scene).map(drop))?;
+        }
         let list = |scene: &OsString| {
-            if self.options.frames.is_some() {
-                moving_scene(scene)?;
-            }
             let list = load(self.ui, scene, &self.options.options)?;
             refuse_outside(&list, self.context.planes)?;
             Ok(list)
@@ -471,7 +475,26 @@ impl Session<'_> {
         if self.ui.json() {
             return self.ui.print(&json);
         }
-        self.ui.print(&format!("{comparison}{}\n", self.options.out.display()))
+        let gap = if comparison.is_empty() { "" } else { "\n" };
+        self.ui.print(&format!("{comparison}{gap}{}", self.places(scenes)))
+    }
+
+    /// Where a reader finds what was written; the folder stands last.
+    fn places(&self, scenes: &[SceneResults]) -> String {
+        let out = &self.options.out;
+        let pictured = |scene: &&SceneResults| scene.rows.iter().any(|row| row.cpu.picture.is_some());
+        let mut text = String::new();
+        for scene in scenes.iter().filter(pictured) {
+            text += &format!(
+                "contact sheet  {}\n",
+                self.folder(&scene.name).join("sheet.png").display()
+            );
+        }
+        if !text.is_empty() {
+            text += &format!("FLIP maps beside it run from near black, 0, to pale yellow, {FLIP_TOP} and more\n");
+        }
+        text += &format!("numbers        {}\n", out.join(RESULTS).display());
+        text + &format!("one page       nmt report {0}\n{0}\n", out.display())
     }
 
     /// One object a method, those that could not be applied first.

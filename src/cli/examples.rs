@@ -29,7 +29,7 @@ examples! {
         "nmt check recommended --exports shaders --format wgsl json";
     PREDICT:
         "nmt predict recommended --fragments data/sample.npz --out target/T.npy"
-        "nmt predict small --fragments data/sample.npz --out target/T-visible.npy --skip visible";
+        "nmt predict small --fragments foliage --size 320x320 --out target/T-visible.npy --skip visible";
     EVALUATE:
         "nmt evaluate --fragments hair smoke --methods moment-power-4 --model small --out target/eval"
         "nmt evaluate --fragments data/sample.npz --methods all --out target/sample-methods"

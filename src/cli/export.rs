@@ -113,6 +113,11 @@ impl Export {
             return Ok(Verdict::Fine);
         }
         let whole = shipped::open(&self.model)?;
+        let formats = self.formats.formats()?;
+        let replace = if self.force { Replace::Yes } else { Replace::No };
+        // A shader folder has the include file of WGSL, too.
+        let early = if self.passes { &[Format::WGSL] } else { &formats[..] };
+        export::may_write_to(&whole, &self.out, early, replace)?;
         let mlp = match self.prune {
             None => whole.clone(),
             Some(0) => bail!("--prune=0: no row says that no unit fires; take 1000000"),
@@ -121,7 +126,6 @@ impl Export {
                 simplify::pruned(&whole, &rows)?
             }
         };
-        let replace = if self.force { Replace::Yes } else { Replace::No };
         let prefix = self.prefix.as_ref();
         if self.passes {
             let paths = export::files::write(&mlp, &self.out, prefix, replace)?;
@@ -134,7 +138,6 @@ impl Export {
             }
             return Ok(Verdict::Fine);
         }
-        let formats = self.formats.formats()?;
         let paths = export::write(&mlp, &self.out, &formats, prefix, replace)?;
         if ui.json() {
             let result = |(f, path): (&Format, &PathBuf)| {

@@ -1,7 +1,7 @@
 //! `nmt generate`
 
 use super::config::Config;
-use super::scene::{SceneOptions, load};
+use super::scene::{SceneOptions, load, look_at};
 use super::ui::Ui;
 use super::{Verdict, keep_inputs, shown, ui};
 use crate::dataset::{self, Dataset, file};
@@ -10,6 +10,7 @@ use crate::pixel::FragmentList;
 use crate::scene::npz;
 use clap::Args;
 use serde_json::json;
+use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -37,6 +38,7 @@ impl Generate {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         let config = Config::load(&self.config)?;
+        self.from.iter().try_for_each(|scene| look_at(OsStr::new(scene)))?;
         file::may_write_to(&self.out, replace)?;
         if let Some(path) = &self.fragments {
             keep_inputs(&[&self.config], path)?;

@@ -1,6 +1,6 @@
 //! `nmt predict`
 
-use super::scene::{load_list, refuse_outside};
+use super::scene::{SceneOptions, load, look_at, refuse_outside};
 use super::ui::Ui;
 use super::{Verdict, keep_inputs, shown};
 use crate::evaluate::transmittance_error;
@@ -17,22 +17,23 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 use ndarray::ArrayView1;
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Args)]
 pub struct Predict {
     /// Model file.
     model: PathBuf,
-    /// Fragment list to answer; a deep image (.exr) is taken too.
-    #[arg(long, value_name = "F.npz")]
-    fragments: PathBuf,
+    /// Fragments to answer: a fragment list (.npz), a deep image (.exr), a scene file (.toml) or the name of a built-in
+    /// scene.
+    #[arg(long, value_name = "F.npz|SCENE")]
+    fragments: OsString,
     /// NumPy array to write: transmittance of every fragment, f32, in the order of the list.
     #[arg(long, value_name = "T.npy")]
     out: PathBuf,
-    /// Part of a deep image, instead of the first deep one.
-    #[arg(long, value_name = "NAME|N")]
-    part: Option<String>,
+    #[command(flatten)]
+    options: SceneOptions,
     /// Near plane of the camera, instead of the list's own [scene units].
     #[arg(long, requires = "far")]
     near: Option<f32>,
@@ -74,9 +75,10 @@ impl From<SkipName> for Skip {
 impl Predict {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
-        keep_inputs(&[&self.model, &self.fragments], &self.out)?;
-        may_write(&self.out, replace)?;
+        keep_inputs(&[&self.model, Path::new(&self.fragments)], &self.out)?;
         let mlp = shipped::open(&self.model)?;
+        look_at(&self.fragments)?;
+        may_write(&self.out, replace)?;
         let planes = self
             .near
             .zip(self.far)
@@ -88,7 +90,7 @@ impl Predict {
                 self.model.display()
             );
         }
-        let list = load_list(ui, &self.fragments, self.part.as_deref())?;
+        let list = load(ui, &self.fragments, &self.options)?;
         refuse_outside(&list, planes)?;
         if matches!(self.skip, SkipName::Visible) {
             say_visible_bound(ui, &list);

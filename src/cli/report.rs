@@ -62,7 +62,7 @@ impl Report {
                 })],
             )?;
         } else {
-            let mut text = format!("{}, {} pictures\n", page.sections.join("; "), page.pictures);
+            let mut text = format!("found: {}; {} pictures\n", page.sections.join("; "), page.pictures);
             for m in &page.missing {
                 text += &format!("not there: {} ({})\n", m.what, m.command);
             }

@@ -2,7 +2,7 @@
 
 use super::ui::Ui;
 use super::{Verdict, keep_inputs, shown};
-use crate::numeric::file::{Replace, may_write};
+use crate::numeric::file::{FileError, Replace, may_write};
 use crate::oit::Context;
 use crate::pixel::{CameraPlanes, DepthWarning, FragmentList};
 use crate::scene::{self, BUILT_IN, Camera, ListFormat, Options, SceneError, SceneFile};
@@ -110,6 +110,18 @@ fn is_built_in(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| BUILT_IN.contains(&name))
 }
 
+/// Refuses what can be told to be none of a list or a scene before any is read or rendered, which may take long: a file
+/// that is not there, a name that no scene has, a scene file that is wrong.
+pub fn look_at(name: &OsStr) -> anyhow::Result<()> {
+    let path = Path::new(name);
+    if is_list(name) || SceneFile::of_file(path).is_some() {
+        std::fs::File::open(path).map_err(FileError::io(path, "cannot read"))?;
+        return Ok(());
+    }
+    open(name)?;
+    Ok(())
+}
+
 /// A scene whose camera can move.
 pub fn moving_scene(name: &OsStr) -> anyhow::Result<SceneFile> {
     if is_list(name) {
@@ -211,8 +223,9 @@ impl Scene {
     pub fn execute(self, ui: &Ui) -> anyhow::Result<Verdict> {
         let replace = if self.force { Replace::Yes } else { Replace::No };
         keep_inputs(&[Path::new(&self.scene)], &self.out)?;
-        may_write(&self.out, replace)?;
         let format = ListFormat::of(&self.out).context("--out")?;
+        look_at(&self.scene)?;
+        may_write(&self.out, replace)?;
         let start = Instant::now();
         let list = load(ui, &self.scene, &self.options)?;
         let seconds = start.elapsed().as_secs_f64();

@@ -4,6 +4,7 @@ use crate::pixel::{DepthWarning, FragmentList, LeftOut};
 use anyhow::Context;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -185,15 +186,30 @@ pub fn machine() -> Value {
     })
 }
 
-/// Columns of the terminal; 80 where standard output is none.
+/// Columns of the terminal; without end where standard output is none, so that what reads it finds each row on one
+/// line.
 fn columns() -> usize {
-    terminal_size::terminal_size().map_or(80, |(width, _)| usize::from(width.0).max(80))
+    terminal_size::terminal_size_of(std::io::stdout()).map_or(usize::MAX, |(width, _)| usize::from(width.0).max(80))
 }
 
 /// Rows as text in aligned columns; the first row is the head. Columns that do not fit the terminal follow below,
-/// behind the first once more.
+/// behind the first once more; where that does not tell rows apart, behind their numbers too.
 pub fn table(rows: &[Vec<String>]) -> String {
     table_within(rows, columns())
+}
+
+/// Whether no two rows have the same first cells.
+fn told_apart(rows: &[Vec<String>], cells: usize) -> bool {
+    let mut seen = HashSet::new();
+    rows.iter().all(|row| seen.insert(&row[..cells.min(row.len())]))
+}
+
+/// Rows with their numbers in front.
+fn numbered(rows: &[Vec<String>]) -> Vec<Vec<String>> {
+    let number = |index: usize| if index == 0 { "#".to_owned() } else { index.to_string() };
+    let rows = rows.iter().enumerate();
+    rows.map(|(index, row)| std::iter::once(number(index)).chain(row.iter().cloned()).collect())
+        .collect()
 }
 
 fn table_within(rows: &[Vec<String>], most: usize) -> String {
@@ -214,6 +230,9 @@ fn table_within(rows: &[Vec<String>], most: usize) -> String {
     }
     if blocks.is_empty() {
         blocks.push((0..count).collect());
+    }
+    if blocks.len() > 1 && !told_apart(rows, fixed) {
+        return table_within(&numbered(rows), most);
     }
     let lines = |block: &Vec<usize>| {
         let line = |text: &dyn Fn(usize) -> String| {
@@ -257,5 +276,36 @@ mod tests {
         assert!(narrow.lines().all(|line| line.len() <= 24), "{narrow}");
         assert_eq!((narrow.matches("hair").count(), narrow.matches("FLIP").count()), (2, 1));
         assert_eq!(table_within(&rows, 80).matches("hair").count(), 1);
+    }
+
+    /// Rows that begin alike are numbered where they are cut, so that their parts can be put together again. Control:
+    /// rows that are whole, and those that their first cell tells apart, are not.
+    #[test]
+    fn rows_that_are_cut_can_be_put_together() {
+        let rows = |second: &str| {
+            let rows = [
+                ["format", "question", "worst error", "result"],
+                ["wgsl", "parses", "", "ok"],
+                [second, "computes", "1e-7", "FAILED"],
+            ];
+            rows.map(|r| r.map(str::to_owned).to_vec())
+        };
+        let cut = table_within(&rows("wgsl"), 30);
+        let of_second: Vec<&str> = cut.lines().filter(|line| line.starts_with("2  wgsl")).collect();
+        assert!(
+            of_second.len() > 1 && of_second.last().unwrap().ends_with("FAILED"),
+            "{cut}"
+        );
+        assert_eq!(
+            cut.lines().filter(|line| line.starts_with("#  format")).count(),
+            of_second.len()
+        );
+        assert!(!table_within(&rows("wgsl"), 80).contains('#') && !table_within(&rows("glsl"), 30).contains('#'));
+        let whole = table_within(&rows("wgsl"), usize::MAX);
+        assert!(
+            whole
+                .lines()
+                .any(|line| line.starts_with("wgsl    computes") && line.ends_with("FAILED"))
+        );
     }
 }

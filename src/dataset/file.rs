@@ -211,17 +211,21 @@ pub fn write(folder: &Path, replace: Replace, dataset: &Dataset) -> Result<(), F
     })
 }
 
-/// Reads a dataset and checks every array against the manifest's hash.
+/// What is wrong with a folder's manifest.
+fn wrong_manifest(folder: &Path, reason: String) -> DatasetFileError {
+    DatasetFileError::Manifest {
+        path: folder.join(MANIFEST),
+        reason,
+    }
+}
+
+/// Reads what a dataset says of itself, without its arrays.
 ///
 /// # Errors
 /// [`DatasetFileError`] names the file and what is wrong with it.
-pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
-    let path = folder.join(MANIFEST);
-    let text = read(&path)?;
-    let wrong = |reason: String| DatasetFileError::Manifest {
-        path: path.clone(),
-        reason,
-    };
+pub fn manifest_of(folder: &Path) -> Result<Manifest, DatasetFileError> {
+    let text = read(&folder.join(MANIFEST))?;
+    let wrong = |reason| wrong_manifest(folder, reason);
     #[derive(Deserialize)]
     struct Head {
         format: String,
@@ -237,13 +241,20 @@ pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
             head.version
         )));
     }
-    let manifest: Manifest = serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))?;
+    serde_json::from_slice(&text).map_err(|e| wrong(e.to_string()))
+}
+
+/// Reads a dataset and checks every array against the manifest's hash.
+///
+/// # Errors
+/// [`DatasetFileError`] names the file and what is wrong with it.
+pub fn read_from(folder: &Path) -> Result<Dataset, DatasetFileError> {
+    let manifest = manifest_of(folder)?;
     let training = read_part(folder, &manifest.training, manifest.features)?;
     let validation = read_part(folder, &manifest.validation, manifest.features)?;
     if manifest.hash != Manifest::hash_of(&manifest.training, &manifest.validation) {
-        return Err(wrong(
-            "the hash of the whole does not follow from those of its files; generate the dataset again".to_owned(),
-        ));
+        let reason = "the hash of the whole does not follow from those of its files; generate the dataset again";
+        return Err(wrong_manifest(folder, reason.to_owned()));
     }
     Ok(Dataset {
         training,

@@ -62,7 +62,16 @@ pub fn write_floats(path: &Path, replace: Replace, image: &Image) -> Result<(), 
     Ok(write_npy(path, replace, array.view())?)
 }
 
-/// Writes a FLIP map as PNG, from near black at 0 to pale yellow at 1; magenta where it is not finite.
+/// The FLIP value that maps show brightest, in files and on contact sheets alike; greater ones look the same. On a
+/// scale up to 1, which FLIP reaches where black stands for white, every map of a method worth using is black.
+pub const FLIP_TOP: f64 = 0.2;
+
+/// Display colour of a value of a FLIP map.
+fn flip_color(value: f64) -> Rgb {
+    heat(value / FLIP_TOP)
+}
+
+/// Writes a FLIP map as PNG, from near black at 0 to pale yellow at [`FLIP_TOP`]; magenta where it is not finite.
 ///
 /// # Errors
 /// [`EvaluateError::File`].
@@ -70,7 +79,7 @@ pub fn write_flip(path: &Path, replace: Replace, map: &FlipMap) -> Result<(), Ev
     write_png(
         path,
         replace,
-        &picture(map.width(), map.height(), |i| heat(map.values()[i].into())),
+        &picture(map.width(), map.height(), |i| flip_color(map.values()[i].into())),
     )
 }
 
@@ -232,7 +241,6 @@ impl Sheet {
         let mut methods: Vec<_> = self.methods.iter().collect();
         methods.sort_by(|a, b| by_error(&a.0, &b.0));
         let crop = self.crop();
-        let top = self.scale();
         let names: Vec<Vec<String>> = methods.iter().map(|(result, ..)| shortened(&result.method)).collect();
 
         let panel = self.truth.panel.size();
@@ -282,7 +290,7 @@ impl Sheet {
             [("A-buffer in f64".to_owned(), FAINT), (String::new(), FAINT)],
         );
         draw.image(&self.truth, crop);
-        draw.scale(top);
+        draw.scale();
         for (i, ((result, shown, map), name)) in methods.into_iter().zip(&names).enumerate() {
             let mut draw = Cell {
                 sheet: &mut sheet,
@@ -293,7 +301,7 @@ impl Sheet {
             };
             draw.label(name, numbers(result));
             draw.image(shown, crop);
-            draw.map(map, top);
+            draw.map(map);
         }
         Ok(sheet)
     }
@@ -335,26 +343,6 @@ impl Sheet {
             width: w,
             height: h,
         }
-    }
-
-    /// The FLIP value that is drawn brightest: what 99 % of a middling method's pixels stay below, rounded up to 1, 2
-    /// or 5 times a power of ten.
-    fn scale(&self) -> f64 {
-        let mut high: Vec<f32> = self
-            .methods
-            .iter()
-            .map(|(.., map)| {
-                let mut values: Vec<f32> = map.values().iter().copied().filter(|v| v.is_finite()).collect();
-                let Some(last) = values.len().checked_sub(1) else {
-                    return 1.0;
-                };
-                *values.select_nth_unstable_by(last * 99 / 100, f32::total_cmp).1
-            })
-            .collect();
-        let middle = high.len() / 2;
-        let high = f64::from(*high.select_nth_unstable_by(middle, f32::total_cmp).1);
-        let steps = (-3..0).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
-        steps.into_iter().find(|&step| step >= high).unwrap_or(1.0)
     }
 }
 
@@ -510,15 +498,15 @@ impl Cell<'_> {
         self.lower(1, &enlarged, "crop");
     }
 
-    fn map(&mut self, map: &FlipMap, top: f64) {
+    fn map(&mut self, map: &FlipMap) {
         let values: Vec<[f64; 1]> = map.values().iter().map(|&v| [f64::from(v)]).collect();
         let small = resample(&values, map.width(), self.half);
-        let shown = picture(self.half.0, self.half.1, |i| heat(small[i][0] / top));
+        let shown = picture(self.half.0, self.half.1, |i| flip_color(small[i][0]));
         self.lower(0, &shown, "FLIP");
     }
 
     /// The colour scale of all maps, where the maps of the other cells stand.
-    fn scale(&mut self, top: f64) {
+    fn scale(&mut self) {
         let (x, y) = (self.at.0, self.top_of_image() + self.panel.1 + GAP);
         let across = (PANEL - GAP) / 2;
         let bar = picture(across, 20.min(self.half.1), |i| {
@@ -526,7 +514,7 @@ impl Cell<'_> {
         });
         self.paste(x, y, &bar);
         let below = y + bar.height() + 6;
-        let end = if top < 1.0 { format!("{top}+") } else { format!("{top}") };
+        let end = format!("{FLIP_TOP}+");
         write(self.sheet, x, below, NUMBERS, INK, "0");
         write(self.sheet, x + across - width(&end, NUMBERS), below, NUMBERS, INK, &end);
         write(self.sheet, x, below + LINE, NUMBERS, FAINT, "FLIP scale");
@@ -624,9 +612,19 @@ mod tests {
         };
         let (image, map) = judged.picture.as_ref().unwrap();
         assert_eq!(read("off.png"), image_picture(image));
+        // The scale ends at 0.2, here as on sheets.
+        let shown = read("off.flip.png");
+        let value = f64::from(map.values()[24 * 64 + 32]);
+        assert_eq!(shown.pixel(32, 24), heat(value / 0.2));
         assert_eq!(
-            read("off.flip.png").pixel(32, 24),
-            heat(map.values()[24 * 64 + 32].into())
+            (flip_color(0.1), flip_color(0.7), flip_color(0.0)),
+            (heat(0.5), heat(1.0), heat(0.0))
+        );
+        assert!(
+            map.values()
+                .iter()
+                .zip(shown.pixels())
+                .all(|(&v, &p)| p == flip_color(v.into()))
         );
         assert!(matches!(
             write_method(folder.path(), "off", Replace::No, &judged),

@@ -71,6 +71,16 @@ pub fn encode_as(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<V
     })
 }
 
+/// Refuses early, before any export is made, where one of these formats is there and may not be replaced.
+///
+/// # Errors
+/// [`FileError::Exists`].
+pub fn may_write_to(mlp: &Mlp, folder: &Path, formats: &[Format], replace: Replace) -> Result<(), FileError> {
+    formats
+        .iter()
+        .try_for_each(|f| may_write(&f.path(folder, mlp), replace))
+}
+
 /// Writes exports of a network into a folder and returns their paths: one a format, then of a network with a core the
 /// files of both passes ([`core::chain`]), one a language among the formats.
 ///
@@ -84,6 +94,7 @@ pub fn write(
     prefix: Option<&Prefix>,
     replace: Replace,
 ) -> Result<Vec<PathBuf>, ExportError> {
+    may_write_to(mlp, folder, formats, replace)?;
     let mut paths: Vec<_> = formats.iter().map(|f| f.path(folder, mlp)).collect();
     let mut encoded = formats
         .iter()

@@ -235,7 +235,7 @@ aria-label="Divider: share of the width that shows the left image"></label>
 <p class="sides" id="v-text" aria-live="polite"></p>
 </div>
 <p class="note"><label class="check"><input type="checkbox" id="g-flip"> FLIP maps in the contact sheets</label><br>
-FLIP maps run from near black (no difference) to pale yellow (1); magenta is not finite.</p>
+FLIP maps run from near black (no difference) to pale yellow (0.2 and more); magenta is not finite.</p>
 <noscript><p class="note">The slider needs scripts; the contact sheets below do not.</p></noscript>
 "#;
 
@@ -251,6 +251,12 @@ pub mod tests {
         let mut bytes = Vec::new();
         Raster::new(width, height, [200, 30, 90]).write_png(&mut bytes).unwrap();
         bytes
+    }
+
+    #[test]
+    fn the_scale_of_maps_is_that_of_their_files() {
+        let end = format!("pale yellow ({} and more)", crate::evaluate::picture::FLIP_TOP);
+        assert!(VIEWER.contains(&end), "{end}");
     }
 
     #[test]

@@ -124,7 +124,7 @@ fn front(points: &[(f64, f64)]) -> Vec<usize> {
 }
 
 /// The section. Where nothing was benchmarked, the times of `nmt evaluate` stand in, and it says so.
-pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
+pub fn section(found: &Found, scenes: &[Scene]) -> Option<String> {
     let documents: Vec<&Document> = found.of("bench").filter(|d| d.results().iter().any(is_timed)).collect();
     let measured = groups(&documents);
     let benchmarked = !measured.is_empty();
@@ -138,7 +138,7 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
         out += &format!("<div>{}</div>\n", group.html());
     }
     if out.is_empty() {
-        return (None, false);
+        return None;
     }
     let note = if benchmarked {
         "Medians; only rows of one adapter and one fragment list may be compared."
@@ -147,13 +147,10 @@ pub fn section(found: &Found, scenes: &[Scene]) -> (Option<String>, bool) {
             networks in f32. For figures that hold, measure \
          with nmt bench methods."
     };
-    (
-        Some(format!(
-            "<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and \
-                better.</p>\n<div class=\"plots\">{out}</div>"
-        )),
-        benchmarked,
-    )
+    Some(format!(
+        "<p>{note} Filled marks and the thin line are the Pareto front: nothing else is both faster and better.</p>\n\
+            <div class=\"plots\">{out}</div>"
+    ))
 }
 
 fn of_scene(scene: &Scene) -> Group {
@@ -289,10 +286,9 @@ mod tests {
             json!(2e-5)), row("m", "cpu", 1.0, json!(null)),
             row("n", "cpu", 2.0, json!(1e-4)), { "benchmark": "train", "method": "x" }, { "benchmark": "methods" }, 3]);
         let found = found("b/results.json", json!({ "command": "bench", "results": rows }));
-        let (html, benchmarked) = section(&found, &[]);
-        let html = html.unwrap();
+        let html = section(&found, &[]).unwrap();
         assert!(
-            benchmarked && html.matches("<svg class=\"chart\"").count() == 2,
+            !html.contains("Times of nmt evaluate") && html.matches("<svg class=\"chart\"").count() == 2,
             "{html}"
         );
         assert!(html.contains("hair, gpu &lt;0&gt;: time of pass 2 against image MSE"));
@@ -308,8 +304,8 @@ mod tests {
     fn evaluations_stand_in_and_say_so() {
         let row = json!({ "scene": "s", "method": "m", "image_mse": 1e-3, "seconds_weights": 0.5, "fragments": 10 });
         let found = found("results.json", json!({ "command": "evaluate", "results": [row] }));
-        let (html, benchmarked) = section(&found, &scenes(&found));
-        assert!(!benchmarked && html.unwrap().contains("Times of nmt evaluate"));
-        assert!(section(&Found::default(), &[]).0.is_none());
+        let html = section(&found, &scenes(&found)).unwrap();
+        assert!(html.contains("Times of nmt evaluate"));
+        assert!(section(&Found::default(), &[]).is_none());
     }
 }

@@ -133,7 +133,13 @@ fn smaller(mut words: Vec<String>) -> Vec<String> {
         .any(|w| scenes.contains(&w.as_str()) || w.starts_with("configs/scenes/"));
     let reads = words.iter().any(|w| w.ends_with(".npz") && !w.starts_with("target")) && words[0] != "scene";
     let specialises = has(&words, "--specialise");
-    if renders && !reads && matches!(words[0].as_str(), "scene" | "evaluate" | "profile" | "generate") {
+    if renders
+        && !reads
+        && matches!(
+            words[0].as_str(),
+            "scene" | "evaluate" | "predict" | "profile" | "generate"
+        )
+    {
         let size = match words[0].as_str() {
             _ if specialises => "72x72",
             "generate" => "64x48",
@@ -275,6 +281,7 @@ documents! {
     docs_integration: "docs/integration.md",
     docs_methods: "docs/methods.md",
     the_comparison: "docs/comparison.md",
+    the_index_of_examples: "examples/README.md",
     docs_over_time: "docs/over-time.md",
     docs_page: "docs/page.md",
     docs_performance: "docs/performance.md",
@@ -368,7 +375,7 @@ fn broken_links(page: &str, folder: &Path) -> Vec<String> {
 fn links_of_documents_lead_somewhere() {
     let mut pages = files("docs", &["md"]);
     pages.extend(files("models", &["md"]));
-    pages.push(root().join("README.md"));
+    pages.extend(["README.md", "examples/README.md"].map(|page| root().join(page)));
     for file in pages {
         let page = std::fs::read_to_string(&file).unwrap();
         let broken = broken_links(&page, file.parent().unwrap());
@@ -376,6 +383,78 @@ fn links_of_documents_lead_somewhere() {
     }
     let page = "# One\n[a](gone.md) [b](#one) [c](#two) [d](Cargo.toml) [e](https://example.org/x)";
     assert_eq!(broken_links(page, root()), ["gone.md", "#two"]);
+}
+
+/// The index of examples names every one with its command. Control: not one that is not there.
+#[test]
+fn every_example_is_listed() {
+    let index = std::fs::read_to_string(root().join("examples/README.md")).unwrap();
+    let listed = |name: &str, command: &str| {
+        let link = format!("[{name}]({name})");
+        let mut rows = index.lines().filter(|line| line.starts_with('|'));
+        rows.any(|row| row.contains(&link) && row.contains(command))
+    };
+    let examples = files("examples", &["rs", "html"]);
+    assert!(examples.len() >= 5, "{examples:?}");
+    for file in examples {
+        let name = file.file_name().unwrap().to_str().unwrap();
+        let command = match name.strip_suffix(".rs") {
+            Some(stem) => format!("cargo run --release --example {stem}"),
+            None => format!("/examples/{name}"),
+        };
+        assert!(listed(name, &command), "{name}");
+    }
+    assert!(!listed("gone.rs", "cargo run"));
+}
+
+/// The Python in docs/cli.md runs on files of the commands above it, and the list that it writes makes an image.
+/// Control: a list without colours makes none.
+#[test]
+fn the_python_of_the_command_line_runs() {
+    let Some(python) = python() else { return };
+    let page = std::fs::read_to_string(root().join("docs/cli.md")).unwrap();
+    let (_, section) = page.split_once("## From Python\n").unwrap();
+    let at = workplace();
+    commands(section).iter().for_each(|line| run(&at, line));
+    std::fs::create_dir(at.path("scripts")).unwrap();
+    std::fs::copy(root().join("scripts/nmt.py"), at.path("scripts/nmt.py")).unwrap();
+    let snippet = section
+        .split("```python\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let output = std::process::Command::new(python)
+        .args(["-c", snippet])
+        .current_dir(at.path(""))
+        .output()
+        .unwrap();
+    let (text, error) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    assert!(output.status.success() && text.contains("T-MSE"), "{text}\n{error}");
+    let evaluate = |list: &str, out: &str| {
+        let arguments = [
+            "evaluate",
+            "--fragments",
+            list,
+            "--methods",
+            "moment-power-4",
+            "--out",
+            out,
+        ];
+        command(&arguments).current_dir(at.path("")).assert().success();
+        std::path::Path::new(&at.path(out))
+            .join(list)
+            .with_extension("")
+            .join("truth.png")
+            .is_file()
+    };
+    std::fs::copy(at.path("target/numpy.npz"), at.path("numpy.npz")).unwrap();
+    std::fs::copy(at.path("data/sample.npz"), at.path("sample.npz")).unwrap();
+    assert!(evaluate("numpy.npz", "with") && !evaluate("sample.npz", "without"));
 }
 
 /// The shader code in README compiles behind the export. Control: with a function misspelt it does not.

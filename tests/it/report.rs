@@ -29,7 +29,8 @@ fn the_page_holds_what_was_measured() {
     nmt(&["report", &folder])
         .success()
         .stdout(
-            contains("Images")
+            contains("found: Images")
+                .and(contains("not there: run time against error").not())
                 .and(contains("nmt stress"))
                 .and(contains("report.html")),
         )

@@ -3,7 +3,7 @@
 
 use super::{Row, SceneResults};
 use crate::numeric::digest::sha256_hex;
-use crate::numeric::file::{FileError, Lock, Replace, create_folder, write_atomically};
+use crate::numeric::file::{FileError, Lock, Replace, create_folder, may_write, write_atomically};
 use crate::pixel::FragmentList;
 use anyhow::bail;
 use serde::{Deserialize, Serialize};
@@ -16,6 +16,9 @@ const UNFINISHED: &str = "unfinished.json";
 
 /// In a scene's folder: what the scene gave.
 const SCENE: &str = "scene.json";
+
+/// In a scene's folder: what every evaluation with images writes.
+const PICTURES: [&str; 2] = ["truth.png", "sheet.png"];
 
 /// Arguments that change nothing of what is computed.
 const WITHOUT_EFFECT: [&str; 4] = ["--force", "--quiet", "-q", "--json"];
@@ -53,19 +56,7 @@ impl Unfinished {
         let lock = Lock::acquire(&out.join("evaluate.lock"))?;
         let command = command(models);
         let path = out.join(UNFINISHED);
-        let before = match fs::read(&path) {
-            Ok(text) => serde_json::from_slice::<Mark>(&text).ok(),
-            Err(_) => None,
-        };
-        let replace = match before {
-            Some(mark) if mark.command == command => Replace::Yes,
-            Some(_) if replace == Replace::No => bail!(
-                "{}: another evaluation was interrupted here; finish it by its own command, choose another folder, or \
-                 pass --force to begin anew",
-                out.display()
-            ),
-            _ => replace,
-        };
+        let replace = may_replace(out, &command, replace)?;
         let mark = serde_json::to_string(&Mark {
             command: command.clone(),
         })?;
@@ -76,6 +67,16 @@ impl Unfinished {
             _lock: lock,
         };
         Ok((unfinished, replace))
+    }
+
+    /// Refuses what [`Self::begin`] would, and pictures of a scene that may not be replaced; nothing is written, so
+    /// that it can be asked before scenes are read.
+    pub fn may_begin(out: &Path, models: &[Vec<u8>], replace: Replace, scenes: &[String]) -> anyhow::Result<()> {
+        let replace = may_replace(out, &command(models), replace)?;
+        let pictures = scenes
+            .iter()
+            .flat_map(|scene| PICTURES.map(|name| out.join(scene).join(name)));
+        pictures.into_iter().try_for_each(|path| Ok(may_write(&path, replace)?))
     }
 
     /// What a scene of this name gave before the command was interrupted; none where it did not come that far, or where
@@ -136,6 +137,23 @@ impl Unfinished {
             bytemuck::cast_slice(colors.as_flattened()),
             format!("{:?} {:?}", list.size(), list.planes()).as_bytes(),
         ])
+    }
+}
+
+/// Whether a command may replace the files of a folder: with `--force`, or where it was interrupted there itself.
+fn may_replace(out: &Path, command: &str, replace: Replace) -> anyhow::Result<Replace> {
+    let before = match fs::read(out.join(UNFINISHED)) {
+        Ok(text) => serde_json::from_slice::<Mark>(&text).ok(),
+        Err(_) => None,
+    };
+    match before {
+        Some(mark) if mark.command == command => Ok(Replace::Yes),
+        Some(_) if replace == Replace::No => bail!(
+            "{}: another evaluation was interrupted here; finish it by its own command, choose another folder, or \
+             pass --force to begin anew",
+            out.display()
+        ),
+        _ => Ok(replace),
     }
 }
 

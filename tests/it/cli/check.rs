@@ -91,3 +91,48 @@ fn onnxruntime_computes_the_reference() {
         "{found}"
     );
 }
+
+/// A folder that `--passes` wrote holds some formats: what is missing says how to write it and how to check the rest,
+/// and that check passes. Control: of another network's folder nothing can be checked.
+#[test]
+fn missing_exports_say_what_to_do() {
+    let at = Workplace::new();
+    let folder = at.path("shaders");
+    nmt(&["export", "small", "--passes", "--out", &folder]).success();
+    let advice = "'nmt export --format onnx' writes it, and 'nmt check --format wgsl,glsl,hlsl,metal' checks";
+    nmt(&["check", "small", "--exports", &folder, "--format", "wgsl,onnx"])
+        .code(1)
+        .stdout(contains("FAILED onnx").and(contains(advice)));
+    nmt(&[
+        "check",
+        "small",
+        "--exports",
+        &folder,
+        "--format",
+        "wgsl,glsl,hlsl,metal",
+    ])
+    .success();
+    nmt(&["check", "recommended", "--exports", &folder, "--format", "onnx"])
+        .code(1)
+        .stdout(contains("holds no export of 'recommended'").and(contains("checks what is there").not()));
+}
+
+/// Piped, each row stands on one line, from its format and its question to its result.
+#[test]
+fn rows_in_a_pipe_are_whole() {
+    let at = Workplace::new();
+    let model = at.model();
+    nmt(&["export", &model, "--out", &at.path("e"), "--format", "json"]).success();
+    let assert = nmt(&["check", &model, "--exports", &at.path("e"), "--format", "json"]).success();
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("json ")).collect();
+    assert!(rows.len() == 3 && rows.iter().all(|row| row.ends_with(" ok")), "{text}");
+    for (row, parts) in rows.iter().zip([
+        ["weights bit for bit", ""],
+        ["computes the reference", "100000 in distribution"],
+        ["computes the reference", "20000 extreme"],
+    ]) {
+        assert!(parts.iter().all(|part| row.contains(part)), "{row}");
+    }
+    assert_eq!(text.matches("checked by").count(), 1);
+}

@@ -29,10 +29,20 @@ fn evaluate_compares_methods() {
         ]
         .concat())
     };
+    // The table, each row whole, then where the files are.
+    let (sheet, numbers) = (at.path("e/g/sheet.png"), at.path("e/results.json"));
+    let one_line = predicates::function::function(|text: &str| {
+        text.lines()
+            .any(|line| line.starts_with("neural:tiny ") && line.ends_with(" 2       f32 blending"))
+    });
     evaluate("e", &["--model", &model]).success().stdout(
         contains("moment-power-4")
-            .and(contains("neural:tiny"))
-            .and(contains("unbounded")),
+            .and(contains("image MSE"))
+            .and(contains("unbounded"))
+            .and(contains(sheet.as_str()))
+            .and(contains(numbers.as_str()))
+            .and(contains("pale yellow, 0.2"))
+            .and(one_line),
     );
     for file in [
         "results.json",
@@ -286,6 +296,36 @@ fn evaluate_reads_all_scenes_first() {
     assert!(!Path::new(&at.path("e")).exists());
 }
 
+/// What may not be replaced, and what is no input, is said before the first scene is read: here one that could not be.
+/// Control: with `--force`, and with inputs that are there, it is read.
+#[test]
+fn evaluate_refuses_before_it_reads() {
+    let at = Workplace::new();
+    let bad = at.write("bad.npz", "no archive");
+    let evaluate = |more: &[&str]| {
+        let out = at.path("e");
+        nmt(&[
+            &["evaluate", "--methods", "abuffer", "--out", &out, "--fragments", &bad],
+            more,
+        ]
+        .concat())
+        .code(2)
+    };
+    let says = |reason: &'static str| contains(reason).and(contains("not a readable").not());
+    std::fs::create_dir_all(at.path("e/bad")).unwrap();
+    at.write("e/bad/truth.png", "");
+    evaluate(&[]).stderr(says("already exists"));
+    evaluate(&["--force"]).stderr(contains("not a readable"));
+    at.write("e/results.json", "{}");
+    evaluate(&[]).stderr(says("already exists"));
+    evaluate(&["castle"]).stderr(says("no built-in scene 'castle'"));
+    evaluate(&["none.npz"]).stderr(says("none.npz: cannot read"));
+    evaluate(&["none.obj"]).stderr(says("none.obj: cannot read"));
+    at.write("e/unfinished.json", r#"{"command": "another"}"#);
+    std::fs::remove_file(at.path("e/results.json")).unwrap();
+    evaluate(&[]).stderr(says("interrupted"));
+}
+
 /// Scenes of one name are told apart by their folders, and an evaluation that was interrupted goes on: scenes that are
 /// done are not judged again, and the numbers are those of one that was not interrupted. Control: another command does
 /// not go on.
@@ -307,9 +347,9 @@ fn evaluate_goes_on() {
     };
     let methods = "abuffer,moment-power-4,weighted-average";
     // A folder where the second scene's picture belongs interrupts the first attempt.
-    let blocked = at.path("e/b-x/truth.png");
+    let blocked = at.path("e/b-x/abuffer.png");
     std::fs::create_dir_all(&blocked).unwrap();
-    evaluate(methods, &[]).code(2).stderr(contains("truth.png"));
+    evaluate(methods, &[]).code(2).stderr(contains("abuffer.png"));
     std::fs::remove_dir(&blocked).unwrap();
     let done = std::path::PathBuf::from(at.path("e/a-x/scene.json"));
     assert!(done.is_file() && !Path::new(&at.path("e/results.json")).exists());

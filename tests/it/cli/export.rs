@@ -156,3 +156,20 @@ fn pruned_exports_say_so() {
         .success()
         .stdout(contains("would fire on"));
 }
+
+/// What may not be replaced is said before anything is sampled: here of a network that nothing can be sampled for, as
+/// `--prune=0` shows. Control: elsewhere, and with `--force`, that is what is said.
+#[test]
+fn export_refuses_before_it_samples() {
+    let at = Workplace::new();
+    nmt(&["export", "small", "--out", &at.path("e"), "--format", "wgsl"]).success();
+    for what in [["--format", "wgsl"].as_slice(), &["--passes"]] {
+        let export = |folder: &str, more: &[&str]| {
+            let out = at.path(folder);
+            nmt(&[&["export", "small", "--prune=0", "--out", &out], what, more].concat()).code(2)
+        };
+        export("e", &[]).stderr(contains("already exists"));
+        export("elsewhere", &[]).stderr(contains("--prune=0:"));
+        export("e", &["--force"]).stderr(contains("--prune=0:"));
+    }
+}

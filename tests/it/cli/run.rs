@@ -1,6 +1,6 @@
 //! `nmt run`.
 
-use crate::common::{TINY, Workplace, nmt};
+use crate::common::{TINY, Workplace, command, nmt};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use std::path::Path;
@@ -80,4 +80,21 @@ fn run_leaves_folders_of_others_alone() {
     nmt(&["run", &other, "--out", &at.path("mine")])
         .code(2)
         .stderr(contains("configuration 'tiny'"));
+}
+
+/// A name where a configuration's path belongs is answered with the path. Control: another name with what is expected.
+#[test]
+fn names_of_configurations_are_understood() {
+    let at = Workplace::new();
+    std::fs::create_dir(at.path("configs")).unwrap();
+    at.write("configs/paper.toml", TINY);
+    for (name, answer) in [
+        ("paper", "did you mean 'configs/paper.toml'?"),
+        ("paper.toml", "did you mean 'configs/paper.toml'?"),
+        ("tiny", "did you mean 'tiny.toml'?"),
+        ("teapot", "ends in .toml, such as configs/paper.toml"),
+    ] {
+        let mut run = command(&["run", name]);
+        run.current_dir(at.path("")).assert().code(2).stderr(contains(answer));
+    }
 }

@@ -206,3 +206,16 @@ fn training_on_a_gpu() {
         .stderr(contains("CUBECL_WGPU_DEFAULT_DEVICE"));
     assert!(!Path::new(&at.path("e.json")).exists());
 }
+
+/// A dataset of another configuration is refused by its manifest: its arrays are not read. Control: of its own
+/// configuration they are.
+#[test]
+fn other_datasets_are_refused_before_they_are_read() {
+    let at = Workplace::new();
+    nmt(&["generate", &at.config(), "--out", &at.path("d")]).success();
+    std::fs::remove_file(at.path("d/training_features.npy")).unwrap();
+    let other = at.write("other.toml", &TINY.replacen("seed = 5", "seed = 6", 1));
+    let train = |config: &str| nmt(&["train", config, "--dataset", &at.path("d"), "--out", &at.path("m.json")]).code(2);
+    train(&other).stderr(contains("another configuration"));
+    train(&at.config()).stderr(contains("training_features.npy"));
+}
