@@ -294,8 +294,8 @@ float2 nmt_core_end_values(uint2 steps) {
     );
 }
 
-// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is left
-// to the tail: the code does not say whether it is another fragment than the nearest.
+// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is
+// left to the tail: the code does not say whether it is another fragment than the nearest.
 uint2 nmt_core_ends(float2 values) {
     uint nearest = nmt_core_end_code(values.x);
     uint farthest = nmt_core_end_code(values.y);

@@ -4,6 +4,8 @@ use assert_cmd::cargo::cargo_bin_cmd;
 use serde_json::Value;
 use std::path::Path;
 
+const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/sample.npz");
+
 fn evaluate(folder: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
     let out = folder.join("out");
     cargo_bin_cmd!("nmt")
@@ -52,7 +54,7 @@ fn frames_are_compared() {
     let still = String::from_utf8(still.get_output().stdout.clone()).unwrap();
     assert!(!still.contains("frame change"), "{still}");
     for (wrong, word) in [
-        (["--fragments", "list.npz", "--frames", "3"], "a fragment list has none"),
+        (["--fragments", LIST, "--frames", "3"], "a fragment list has none"),
         (["--fragments", "spheres", "--frames", "1"], "--frames"),
     ] {
         let refused = evaluate(folder.path(), &wrong).failure();

@@ -202,8 +202,8 @@ uint nmt_core_end_code(float value) {
     return ((packed_code >> low) << NMT_END_BITS) | (packed_code & ((1u << low) - 1u));
 }
 
-// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is left
-// to the tail: the code does not say whether it is another fragment than the nearest.
+// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is
+// left to the tail: the code does not say whether it is another fragment than the nearest.
 uvec2 nmt_core_ends(vec2 values) {
     uint nearest = nmt_core_end_code(values.x);
     uint farthest = nmt_core_end_code(values.y);

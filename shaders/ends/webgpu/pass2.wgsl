@@ -193,8 +193,8 @@ fn nmt_core_end_code(value: f32) -> u32 {
     return ((packed_code >> low) << NMT_END_BITS) | (packed_code & ((1u << low) - 1u));
 }
 
-// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is left
-// to the tail: the code does not say whether it is another fragment than the nearest.
+// The slots of a pixel. Where all its fragments share a depth step none is in front of another, and its farthest is
+// left to the tail: the code does not say whether it is another fragment than the nearest.
 fn nmt_core_ends(values: vec2<f32>) -> vec2<u32> {
     let nearest = nmt_core_end_code(values.x);
     let farthest = nmt_core_end_code(values.y);
