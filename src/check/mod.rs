@@ -16,7 +16,8 @@ pub mod translated;
 
 use crate::export::core::chain_languages;
 use crate::export::shader::{ENTRY, PRUNED, half_bounds, half_limit, network_function};
-use crate::export::{Format, Precision, Prefix, Target, onnx as onnx_export, translate};
+use crate::export::target::Reader;
+use crate::export::{Format, Precision, Prefix, onnx as onnx_export, translate};
 use crate::features::FeatureSet;
 use crate::gpu::{Gpu, compute};
 use crate::model::simplify::{Pruned, fires, without_units};
@@ -522,10 +523,7 @@ struct OnGpu {
 
 /// Shader source with the names that an export without a prefix has.
 fn without_prefix(format: Format, bytes: Vec<u8>) -> Vec<u8> {
-    if !matches!(
-        format.target(),
-        Target::Wgsl | Target::Glsl | Target::Hlsl | Target::Metal
-    ) {
+    if format.target().comment().is_none() {
         return bytes;
     }
     let text = std::str::from_utf8(&bytes).ok();
@@ -537,13 +535,13 @@ fn without_prefix(format: Format, bytes: Vec<u8>) -> Vec<u8> {
 
 /// What an export says was taken out of the network.
 fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
-    let line = match format.target() {
-        Target::Json => {
+    let line = match format.target().reader() {
+        Reader::Model => {
             // What is no model file is found further down.
             let mlp = file::from_json(bytes, Path::new("the export"));
             return Ok(mlp.ok().and_then(|mlp| mlp.provenance.pruned));
         }
-        Target::Onnx => {
+        Reader::Onnx => {
             let properties = onnx_export::decode(bytes)
                 .map(|model| model.metadata_props)
                 .unwrap_or_default();
@@ -553,16 +551,13 @@ fn pruned(format: Format, bytes: &[u8]) -> Result<Option<Pruned>, String> {
                 .map(|p| p.value)
         }
         _ => {
-            let spirv = format.target() == Target::Spirv;
-            let text = if spirv {
-                translate::string_of(bytes).unwrap_or_default()
-            } else {
-                String::from_utf8_lossy(bytes).into_owned()
-            };
-            let mark = if spirv {
-                PRUNED.to_owned()
-            } else {
-                format!("// {PRUNED}")
+            // SPIR-V has its header in a string of its own.
+            let (text, mark) = match format.target().comment() {
+                None => (translate::string_of(bytes).unwrap_or_default(), PRUNED.to_owned()),
+                Some(comment) => (
+                    String::from_utf8_lossy(bytes).into_owned(),
+                    format!("{comment} {PRUNED}"),
+                ),
             };
             text.lines()
                 .find_map(|line| line.strip_prefix(&mark))
@@ -632,13 +627,13 @@ pub fn check(
                 continue;
             }
         };
-        match format.target() {
-            Target::Json => check_json(subject, &path, &bytes, &mut findings),
-            Target::Onnx => check_onnx(subject, &bytes, &mut findings),
-            Target::Metal => check_metal(subject, format, &bytes, &mut findings),
-            Target::Spirv => check_spirv(subject, format, &bytes, &mut findings),
-            Target::Hlsl => check_hlsl(subject, format, &bytes, &mut findings),
-            Target::Wgsl | Target::Glsl => check_shader(subject, format, &bytes, &mut findings),
+        match format.target().reader() {
+            Reader::Model => check_json(subject, &path, &bytes, &mut findings),
+            Reader::Onnx => check_onnx(subject, &bytes, &mut findings),
+            Reader::Metal => check_metal(subject, format, &bytes, &mut findings),
+            Reader::Spirv => check_spirv(subject, format, &bytes, &mut findings),
+            Reader::Hlsl => check_hlsl(subject, format, &bytes, &mut findings),
+            Reader::Wgsl | Reader::Glsl => check_shader(subject, format, &bytes, &mut findings),
         }
     }
     findings.extend(core::check_network(mlp, folder, &chain_languages(formats)));
@@ -718,7 +713,7 @@ fn check_shader(subject: &Subject<'_>, format: Format, bytes: &[u8], findings: &
         Ok(module) => module,
         Err(why) => return findings.push(Finding::new(format, "naga", "parses and validates", Err(why))),
     };
-    let glsl = format.target() == Target::Glsl;
+    let glsl = format.target().reader() == Reader::Glsl;
     findings.push(Finding::new(format, "naga", "parses and validates", Ok(())));
     if glsl {
         findings.push(by_glslang(format, shader::glslang(text)));
@@ -963,9 +958,9 @@ mod tests {
                 .filter(|f| f.starts_with(&format!("{} ", format.name())))
                 .count();
             // What nothing runs has its weights only, and f16 has no eye for so little.
-            let runs =
-                !matches!(format.target(), Target::Metal | Target::Spirv) && format.precision() == Precision::F32;
-            let runs = runs && (format.target() != Target::Hlsl || hlsl::slangc().is_ok());
+            let reader = format.target().reader();
+            let runs = !matches!(reader, Reader::Metal | Reader::Spirv) && format.precision() == Precision::F32;
+            let runs = runs && (reader != Reader::Hlsl || hlsl::slangc().is_ok());
             assert!(of_format >= if runs { 2 } else { 1 }, "{}: {failed:#?}", format.name());
         }
     }

@@ -2,7 +2,8 @@
 
 use super::interpret::Interpreter;
 use crate::export::recentred::{FAINT_SWITCH, HIDDEN_SWITCH, ROUNDING};
-use crate::export::{Form, Format, Precision, Target};
+use crate::export::target::Reader;
+use crate::export::{Form, Format, Precision};
 use crate::model::Mlp;
 use crate::numeric::quantise::round_f16_of_f32;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -17,9 +18,9 @@ use std::process::{Command, Output, Stdio};
 /// # Errors
 /// The compiler's own words, with the place.
 pub fn parse(format: Format, source: &str) -> Result<Module, String> {
-    let module = match format.target() {
-        Target::Wgsl => naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?,
-        Target::Glsl => {
+    let module = match format.target().reader() {
+        Reader::Wgsl => naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?,
+        Reader::Glsl => {
             let whole = complete_glsl(source);
             naga::front::glsl::Frontend::default()
                 .parse(&naga::front::glsl::Options::from(naga::ShaderStage::Fragment), &whole)

@@ -1,24 +1,24 @@
 //! `nmt train` of the networks that answer with a pixel's colour.
 
 use super::config::{colour_set, whole};
-use super::train::Train;
+use super::train::{Train, remove_checkpoint, with_progress};
 use super::ui::Ui;
-use super::{Verdict, interrupt, keep_inputs};
+use super::{Verdict, keep_inputs};
 use crate::dataset::colour::{ColourLaw, ColourRows};
 use crate::features::colour::ColourSet;
 use crate::model::Provenance;
 use crate::model::mlp::check_name;
 use crate::numeric::file::{Lock, Replace, may_write};
 use crate::synth::{Purpose, Synth, SynthConfig};
-use crate::train::checkpoint::lock_path_for;
-use crate::train::colour::{ColourJob, train_colours};
+use crate::train::checkpoint::{lock_path_for, path_for};
+use crate::train::colour::ColourDataset;
+use crate::train::trainer::Job;
 use crate::train::{Backend, TrainConfig};
 use anyhow::{Context, bail};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::path::Path;
-use std::time::Instant;
 
 /// A configuration of such a network.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ pub struct ColourConfig {
     name: String,
     seed: u64,
     synth: SynthConfig,
-    dataset: ColourDataset,
+    dataset: DatasetOptions,
     colours: ColourLaw,
     train: TrainConfig,
     /// What a file that is extended says of measuring; the validation loss is an error of the image already.
@@ -38,7 +38,7 @@ pub struct ColourConfig {
 /// Its rows: one a pixel.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ColourDataset {
+struct DatasetOptions {
     features: ColourSet,
     training_pairs: u64,
     validation_pairs: u64,
@@ -94,8 +94,8 @@ impl ColourConfig {
 pub fn train(config: ColourConfig, arguments: &Train, replace: Replace, ui: &Ui) -> anyhow::Result<Verdict> {
     let mut config = config;
     let options = &arguments.options;
-    if arguments.dataset.is_some() || options.resume {
-        bail!("a network of colours trains in a minute from rows made in memory; leave out --dataset and --resume");
+    if arguments.dataset.is_some() {
+        bail!("a network of colours trains in a minute from rows made in memory; leave out --dataset");
     }
     let backend = Backend::try_from(options.backend)?;
     backend.adapter().context("--backend")?;
@@ -103,6 +103,8 @@ pub fn train(config: ColourConfig, arguments: &Train, replace: Replace, ui: &Ui)
     keep_inputs(&[&arguments.config], &arguments.out)?;
     let _lock = Lock::acquire(&lock_path_for(&arguments.out))?;
     may_write(&arguments.out, replace)?;
+    let checkpoint = path_for(&arguments.out);
+    options.settle_checkpoint(&checkpoint)?;
     let synth = Synth::new(config.synth.clone(), config.seed)?;
     let rows = |purpose, pixels: u64| {
         ColourRows::of(
@@ -114,35 +116,26 @@ pub fn train(config: ColourConfig, arguments: &Train, replace: Replace, ui: &Ui)
             config.dataset.features,
         )
     };
-    let training = rows(Purpose::Training, config.dataset.training_pairs);
-    let validation = rows(Purpose::Validation, config.dataset.validation_pairs);
-    let job = ColourJob {
+    let dataset = ColourDataset::new(
+        rows(Purpose::Training, config.dataset.training_pairs),
+        rows(Purpose::Validation, config.dataset.validation_pairs),
+    );
+    let job = Job {
         name: &config.name,
         config: &config.train,
         seed: config.seed,
         backend,
+        checkpoint: &checkpoint,
+        resume: options.resume,
         provenance: Provenance::of_this_program(serde_json::to_value(&config).expect("a configuration is plain data")),
     };
-    let progress = ui.progress("train", config.train.epochs * config.train.seeds);
-    let start = Instant::now();
-    let outcome = interrupt::gracefully(|| {
-        train_colours(
-            &training,
-            &validation,
-            job,
-            &interrupt::requested,
-            &mut |epoch, loss, validation| {
-                progress.set(epoch, format!("epochs, loss {loss:.3e}, validation {validation:.3e}"));
-            },
-        )
-    });
-    progress.finish();
-    let Some(network) = outcome? else {
-        eprintln!("interrupted; nothing was kept");
+    let Some(trained) = with_progress(&dataset, &job, ui)? else {
         return Ok(Verdict::Interrupted);
     };
+    let network = &trained.mlp;
     network.save(&arguments.out, replace)?;
-    let (p, seconds) = (&network.provenance, start.elapsed().as_secs_f64());
+    remove_checkpoint(&checkpoint)?;
+    let (p, seconds) = (&network.provenance, trained.seconds);
     if ui.json() {
         let result = json!({
             "network": network.shape(), "backend": p.backend, "epochs": p.epochs, "best_epoch": p.best_epoch,

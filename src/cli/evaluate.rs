@@ -185,11 +185,11 @@ impl Evaluate {
             }
             return Ok(Verdict::Fine);
         }
-        let models = self.model_files()?;
-        Unfinished::may_begin(&self.out, &models, session.replace, &names)?;
+        let inputs = self.inputs()?;
+        Unfinished::may_begin(&self.out, &inputs, session.replace, &names)?;
         let lists = session.lists(&scenes)?;
         let unfinished;
-        (unfinished, session.replace) = Unfinished::begin(&self.out, &models, session.replace)?;
+        (unfinished, session.replace) = Unfinished::begin(&self.out, &names, &inputs, session.replace)?;
         let mut results = Vec::new();
         for ((scene, name), list) in scenes.iter().zip(&names).zip(lists) {
             let found = match unfinished.restore(name, &list) {
@@ -217,10 +217,13 @@ impl Evaluate {
         Ok(Verdict::Fine)
     }
 
-    /// The model files that methods name, behind a colon, and those of `--model`.
-    fn model_files(&self) -> anyhow::Result<Vec<Vec<u8>>> {
+    /// The model files that methods name, behind a colon, and those of `--model`; and scene files, which say more than
+    /// the fragments of the first frame do.
+    fn inputs(&self) -> anyhow::Result<Vec<Vec<u8>>> {
         let named = self.methods.iter().filter_map(|name| Some(name.split_once(':')?.1));
-        let paths = self.model.iter().cloned().chain(named.map(PathBuf::from));
+        let scenes = self.fragments.iter().map(PathBuf::from);
+        let scenes = scenes.filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+        let paths = self.model.iter().cloned().chain(named.map(PathBuf::from)).chain(scenes);
         let files = paths.filter(|path| path.is_file());
         files.map(|path| Ok(read(&path)?)).collect()
     }
@@ -232,7 +235,9 @@ impl Evaluate {
             bail!("--tint {wrong}: a strength lies from 0 to 1");
         }
         let methods = self.requested()?;
-        may_write(&self.out.join(RESULTS), replace)?;
+        if !unfinished::is_left(&self.out, &self.inputs()?) {
+            may_write(&self.out.join(RESULTS), replace)?;
+        }
         Ok(Session {
             options: self,
             ui,

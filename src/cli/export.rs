@@ -3,7 +3,7 @@
 use super::Verdict;
 use super::ui::Ui;
 use crate::check::rows;
-use crate::export::{self, Format, Precision, Prefix};
+use crate::export::{self, Format, Precision, Prefix, Target};
 use crate::model::{Mlp, shipped, simplify};
 use crate::numeric::file::Replace;
 use anyhow::bail;
@@ -27,9 +27,7 @@ pub struct Export {
     /// constants GLASS_..., types Glass...
     #[arg(long, value_name = "NAME")]
     prefix: Option<Prefix>,
-    /// Write a shader folder instead: include files in WGSL, GLSL, HLSL and Metal, and the three passes as whole files
-    /// for WebGPU, OpenGL, OpenGL ES, Vulkan, Direct3D and Metal.
-    #[arg(long, conflicts_with_all = ["format", "precision"])]
+    #[arg(long, conflicts_with_all = ["format", "precision"], help = about_passes())]
     passes: bool,
     /// Take out hidden units that never fire on so many random rows of the training distribution (--prune alone:
     /// 1000000). Fewer multiply-adds; where such a unit would fire after all, answers are off. The header says which
@@ -51,9 +49,7 @@ pub struct FormatArguments {
     /// "-f16" has hidden layers in f16. Without it: all but the plain ones.
     #[arg(long, value_parser = format(), value_delimiter = ',', num_args = 1..)]
     format: Vec<Format>,
-    /// What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is offered
-    /// for wgsl, hlsl, metal and spirv.
-    #[arg(long, value_enum, default_value = "f32")]
+    #[arg(long, value_enum, default_value = "f32", help = about_precision())]
     precision: PrecisionName,
 }
 
@@ -67,6 +63,41 @@ pub enum PrecisionName {
 /// Reads a format's name, and lists all of them in the help.
 fn format() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::all().map(Format::name)).try_map(|name| name.parse::<Format>())
+}
+
+/// Words as a sentence lists them: "a, b and c".
+fn listed(words: impl Iterator<Item = &'static str>) -> String {
+    let words: Vec<&str> = words.collect();
+    match words.as_slice() {
+        [all @ .., last] if !all.is_empty() => format!("{} and {last}", all.join(", ")),
+        few => few.concat(),
+    }
+}
+
+/// What the command does.
+pub fn about() -> String {
+    let titles = listed(Target::ALL.into_iter().map(Target::title));
+    format!("Export a network as {titles}")
+}
+
+/// What `--passes` does.
+fn about_passes() -> String {
+    let titles = listed(Target::all_of_text().map(Target::title));
+    format!(
+        "Write a shader folder instead: include files in {titles}, and the three passes as whole files for WebGPU, \
+         OpenGL, OpenGL ES, Vulkan, Direct3D and Metal"
+    )
+}
+
+/// What `--precision` does.
+fn about_precision() -> String {
+    let packed = Target::ALL.into_iter().map(Format::of);
+    let half = packed.filter(|format| format.with_precision(Precision::F16).is_ok());
+    format!(
+        "What weights and activations of the hidden layers are kept in, where a format does not say it. f16 is \
+         offered for {}",
+        listed(half.map(Format::name))
+    )
 }
 
 impl FormatArguments {

@@ -63,8 +63,7 @@ enum Command {
     /// Train a network.
     #[command(after_help = examples::TRAIN)]
     Train(train::Train),
-    /// Export a network as WGSL, GLSL, HLSL, MSL, SPIR-V, JSON and ONNX.
-    #[command(after_help = examples::EXPORT)]
+    #[command(about = export::about(), after_help = examples::EXPORT)]
     Export(export::Export),
     /// Check exports against the network.
     #[command(after_help = examples::CHECK)]

@@ -9,7 +9,7 @@ use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
 use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
-use crate::train::{Backend, BackendError, Outcome, TrainConfig, train};
+use crate::train::{Backend, BackendError, Outcome, Subject, TrainConfig, train};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -172,14 +172,24 @@ fn refuse_other(folder: &Path, config: &Config) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Removes a checkpoint that has served.
+pub fn remove_checkpoint(checkpoint: &Path) -> Result<(), FileError> {
+    match std::fs::remove_file(checkpoint) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(FileError::io(checkpoint, "cannot remove the checkpoint")(error))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Where the losses of every epoch go: beside the model.
 fn losses_path(model: &Path) -> PathBuf {
     model.with_extension("losses.csv")
 }
 
 /// A finished training.
-pub struct Trained {
-    pub mlp: Mlp,
+pub struct Trained<N = Mlp> {
+    pub mlp: N,
     pub history: Vec<Losses>,
     pub seconds: f64,
     pub samples_per_second: f64,
@@ -196,12 +206,7 @@ impl Trained {
             csv += &format!("{},{:e},{:e}\n", index + 1, losses.training, losses.validation);
         }
         write_atomically(&losses_path(model), replace, |w| w.write_all(csv.as_bytes()))?;
-        match std::fs::remove_file(checkpoint) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(FileError::io(checkpoint, "cannot remove the checkpoint")(error))
-            }
-            _ => Ok(()),
-        }
+        remove_checkpoint(checkpoint)
     }
 
     pub fn to_json(&self) -> Value {
@@ -232,7 +237,7 @@ impl Trained {
     }
 }
 
-/// Trains with progress on stderr; none where it was interrupted.
+/// Trains by a configuration; none where it was interrupted.
 pub fn fit(
     config: &Config,
     dataset: &Dataset,
@@ -240,23 +245,29 @@ pub fn fit(
     checkpoint: &Path,
     ui: &Ui,
 ) -> anyhow::Result<Option<Trained>> {
-    let provenance = Provenance::of_this_program(config.to_json());
-    let backend = Backend::try_from(options.backend)?;
-    let adapter = backend.adapter()?;
     let job = Job {
         name: &config.name,
         config: &config.train,
         seed: config.seed,
-        backend,
+        backend: Backend::try_from(options.backend)?,
         checkpoint,
         resume: options.resume,
-        provenance,
+        provenance: Provenance::of_this_program(config.to_json()),
     };
-    let progress = ui.progress("train", config.train.epochs * config.train.seeds);
+    with_progress(dataset, &job, ui)
+}
+
+/// Trains with progress on stderr; none where it was interrupted, and then it is said what is left of it.
+pub fn with_progress<S: Subject>(subject: &S, job: &Job<'_>, ui: &Ui) -> anyhow::Result<Option<Trained<S::Network>>>
+where
+    S::Network: Send,
+{
+    let adapter = job.backend.adapter()?;
+    let progress = ui.progress("train", job.config.epochs * job.config.seeds);
     let start = Instant::now();
     let mut samples = 0;
     let outcome = interrupt::gracefully(|| {
-        train(dataset, &job, &interrupt::requested, &mut |report| {
+        train(subject, job, &interrupt::requested, &mut |report| {
             samples = report.samples;
             let rate = samples as f64 / start.elapsed().as_secs_f64() / 1e6;
             let losses = report.losses;

@@ -185,7 +185,7 @@ pub fn files(mlp: &Mlp, prefix: Option<&Prefix>) -> Result<Vec<ShaderFile>, Expo
     let set = mlp.feature_set();
     let named = |text: String| prefix.map_or(text.clone(), |prefix| prefix.apply(&text));
     let mut out = Vec::new();
-    for format in [Format::WGSL, Format::GLSL, Format::HLSL, Format::METAL] {
+    for format in Target::all_of_text().map(Format::of) {
         let text = String::from_utf8(encode_as(mlp, format, prefix)?).expect("shader source is text");
         let path = format!("{}{}", mlp.name(), format.suffix());
         out.push(ShaderFile { path, text });
@@ -271,7 +271,7 @@ fn pass(mlp: &Mlp, api: Api, template: &str) -> Result<String, ExportError> {
         match kind {
             "" => text += line,
             "include" => {
-                text += comment(&short_header(mlp)).trim_end();
+                text += comment(api.format(), &short_header(mlp)).trim_end();
                 text += &reachable(&include, rest);
             }
             "sums" => text += &each_target(set, rest),

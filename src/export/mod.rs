@@ -15,12 +15,14 @@ pub mod prefix;
 pub mod protobuf;
 pub mod recentred;
 pub mod shader;
+pub mod target;
 pub mod translate;
 
-pub use format::{Form, Format, FormatError, Precision, Target};
+pub use dialect::Target;
+pub use format::{Form, Format, FormatError, Precision};
 pub use prefix::Prefix;
 
-use crate::model::{Mlp, file};
+use crate::model::Mlp;
 use crate::numeric::file::{FileError, Replace, create_folder, may_write, write_atomically};
 use std::path::{Path, PathBuf};
 
@@ -62,13 +64,7 @@ pub fn encode(mlp: &Mlp, format: Format) -> Result<Vec<u8>, ExportError> {
 /// # Errors
 /// As [`encode`].
 pub fn encode_as(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Vec<u8>, ExportError> {
-    Ok(match format.target() {
-        Target::Wgsl | Target::Glsl | Target::Hlsl => shader::source(mlp, format, prefix)?.into_bytes(),
-        Target::Metal => translate::metal(mlp, format, prefix)?.into_bytes(),
-        Target::Spirv => translate::spirv(mlp, format)?,
-        Target::Json => file::to_json(mlp).into_bytes(),
-        Target::Onnx => onnx::encode(mlp),
-    })
+    (format.target().description().write)(mlp, format, prefix)
 }
 
 /// Refuses early, before any export is made, where one of these formats is there and may not be replaced.

@@ -4,6 +4,7 @@
 //! such a graph needs, declared by hand.
 
 use super::protobuf::{DecodeError, Field, Message, Value, message};
+use super::target::{Description, Reader, names, suffixes};
 use crate::features::{Answer, MAX_LOG_ABSORBANCE};
 use crate::model::Mlp;
 
@@ -340,6 +341,19 @@ fn metadata(mlp: &Mlp) -> Vec<StringStringEntryProto> {
         .map(|(key, value)| StringStringEntryProto { key, value })
         .collect()
 }
+
+/// ONNX as a target.
+pub(super) const TARGET: Description = Description {
+    title: "ONNX",
+    names: names!("onnx"),
+    suffixes: suffixes!("onnx"),
+    language: None,
+    text: false,
+    plain: false,
+    half: false,
+    write: |mlp, _, _| Ok(encode(mlp)),
+    reader: Reader::Onnx,
+};
 
 /// The bytes of the `.onnx` file of a network.
 pub fn encode(mlp: &Mlp) -> Vec<u8> {

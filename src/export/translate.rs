@@ -57,7 +57,7 @@ pub fn metal(mlp: &Mlp, format: Format, prefix: Option<&Prefix>) -> Result<Strin
         "Metal Shading Language 2.1, translated from the WGSL export by naga. An array is a struct with the one member \
             'inner'.",
     ];
-    let head = shader::comment(&header(mlp, format, prefix, &more)?);
+    let head = shader::comment(format, &header(mlp, format, prefix, &more)?);
     Ok(format!("{head}#ifndef {guard}\n#define {guard}\n\n{text}\n#endif\n"))
 }
 

@@ -25,6 +25,11 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FILES.iter().map(|(name, _)| *name)
 }
 
+/// Their model files.
+pub fn files() -> impl Iterator<Item = &'static [u8]> {
+    FILES.iter().map(|(_, text)| text.as_bytes())
+}
+
 /// The network of that name; none where no network that comes with the program has it.
 ///
 /// # Panics

@@ -46,6 +46,9 @@ pub const ENTRIES: [Entry; 2] = [
 const DFA: &[u8] = include_bytes!("../../models/rivals/dfa.json");
 const STAR_NT: &[u8] = include_bytes!("../../models/rivals/star-nt.json");
 
+/// The model files that come with the program.
+pub const SHIPPED: [&[u8]; 2] = [DFA, STAR_NT];
+
 fn names(head: &str) -> Vec<String> {
     vec![head.to_owned()]
 }

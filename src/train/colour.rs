@@ -1,105 +1,81 @@
-//! Training of the networks that answer with a pixel's colour: the same optimisers, three outputs.
+//! Training of the networks that answer with a pixel's colour: the loop of all, three outputs.
 
-use super::trainer::TrainError;
-use super::{Backend, TrainConfig, initial};
+use super::feed::Feed;
+use super::initial;
+use super::trainer::{Job, Subject, TrainError};
 use crate::dataset::colour::ColourRows;
-use crate::dataset::{Batch, Blocks};
 use crate::features::Answer;
-use crate::model::{ColourNetwork, Provenance};
-use crate::numeric::lanes::LANES;
-use crate::numeric::rng::stream;
-use rand::seq::SliceRandom;
+use crate::model::{ColourNetwork, Provenance, ShapeError};
+use crate::numeric::digest::sha256_hex;
 use rayon::prelude::*;
 
-/// Keeps the random numbers of shuffling apart from all others.
-const PURPOSE: u64 = 0x1011;
-
-/// What a training is, besides its rows.
-#[derive(Debug, Clone)]
-pub struct ColourJob<'a> {
-    /// Name of the network.
-    pub name: &'a str,
-    /// How to train.
-    pub config: &'a TrainConfig,
-    /// Seed of initial weights and shuffling.
-    pub seed: u64,
-    /// What computes the gradients.
-    pub backend: Backend,
-    /// What is already known of the network's origin; losses and the like are filled in.
-    pub provenance: Provenance,
+/// Rows that such a network is trained on and chosen by.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColourDataset {
+    training: ColourRows,
+    validation: ColourRows,
+    hash: String,
 }
 
-/// Trains a network, or as many as the configuration says, and keeps the weights with the least validation loss; none
-/// once `stop` says true, which is asked before every step. `observe` is told the epoch and both losses.
-///
-/// # Errors
-/// [`TrainError`].
-pub fn train_colours(
-    training: &ColourRows,
-    validation: &ColourRows,
-    job: ColourJob<'_>,
-    stop: &dyn Fn() -> bool,
-    observe: &mut dyn FnMut(u64, f64, f64),
-) -> Result<Option<ColourNetwork>, TrainError> {
-    let ColourJob {
-        name,
-        config,
-        seed,
-        backend,
-        mut provenance,
-    } = job;
-    config.validate()?;
-    for (name, rows) in [("training", training), ("validation", validation)] {
-        if rows.is_empty() {
-            return Err(TrainError::NoRows(name));
+impl ColourDataset {
+    /// Of rows of one set.
+    pub fn new(training: ColourRows, validation: ColourRows) -> Self {
+        let arrays = [&training, &validation].map(|rows| [&rows.features, &rows.targets, &rows.weights]);
+        let hash = sha256_hex(arrays.as_flattened().iter().map(|array| bytemuck::cast_slice(array)));
+        Self {
+            training,
+            validation,
+            hash,
         }
     }
-    let shapes = initial::shapes_to(training.set.columns().len(), &config.hidden, 3);
-    let network = |parameters: &[f32], provenance| -> Result<ColourNetwork, TrainError> {
-        let layers = initial::layers(&shapes, parameters)?;
-        Ok(ColourNetwork::new(name, training.set, layers, provenance).expect("layers of these shapes"))
-    };
-    let mut rows: Vec<usize> = (0..training.len()).collect();
-    rows.shuffle(&mut stream(seed, PURPOSE, 0));
-    let blocks = Blocks::from_fn(shapes[0].0, 3, 0, rows.len(), |at| training.row(rows[at]));
-    let (per_step, mut order) = (config.batch / LANES, (0..blocks.len() as u32).collect::<Vec<_>>());
-    let steps_of_epoch = order.len().div_ceil(per_step) as u64;
-    let mut best: Option<(f64, Vec<f32>)> = None;
-    for index in 0..config.seeds {
-        let initial = initial::glorot(&shapes, seed + index);
-        let mut fitted = backend.optimiser(Answer::Sigmoid, &shapes, &initial, config)?;
-        for of_network in 0..config.epochs {
-            let epoch = index * config.epochs + of_network + 1;
-            order.shuffle(&mut stream(seed, PURPOSE, epoch));
-            let mut squared = 0.0;
-            for (step, order) in (of_network * steps_of_epoch + 1..).zip(order.chunks(per_step)) {
-                if stop() {
-                    return Ok(None);
-                }
-                let batch = Batch { blocks: &blocks, order };
-                let rate = config.learning_rate_at(step, config.epochs * steps_of_epoch);
-                squared += fitted.step(batch, rate) * batch.rows() as f64;
-            }
-            let parameters = fitted.parameters();
-            if !squared.is_finite() || parameters.iter().any(|p| !p.is_finite()) {
-                return Err(TrainError::Diverged { epoch });
-            }
-            let training_loss = squared / training.len() as f64;
-            let loss = mean_squared_error(&network(&parameters, Provenance::default())?, validation);
-            if best.as_ref().is_none_or(|(least, _)| loss < *least) {
-                best = Some((loss, parameters));
-                provenance.best_epoch = Some(epoch);
-                provenance.training_loss = Some(training_loss);
-                provenance.validation_loss = Some(loss);
-            }
-            observe(epoch, training_loss, loss);
+}
+
+impl Subject for ColourDataset {
+    type Network = ColourNetwork;
+
+    fn hash(&self) -> &str {
+        &self.hash
+    }
+
+    fn rows(&self) -> [usize; 2] {
+        [self.training.len(), self.validation.len()]
+    }
+
+    fn shapes(&self, hidden: &[usize]) -> Vec<(usize, usize)> {
+        initial::shapes_to(self.training.set.columns().len(), hidden, 3)
+    }
+
+    fn answer(&self) -> Answer {
+        Answer::Sigmoid
+    }
+
+    fn feed(&self, seed: u64, batch: usize, epochs: u64) -> Result<Feed, TrainError> {
+        Ok(Feed::of_colours(&self.training, seed, batch, epochs))
+    }
+
+    fn network(
+        &self,
+        name: &str,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        provenance: Provenance,
+    ) -> Result<ColourNetwork, ShapeError> {
+        let layers = initial::layers(shapes, parameters)?;
+        Ok(ColourNetwork::new(name, self.training.set, layers, provenance).expect("layers of these shapes"))
+    }
+
+    fn validation_loss(&self, network: &ColourNetwork) -> f64 {
+        mean_squared_error(network, &self.validation)
+    }
+
+    /// Its rows are no file that a hash could be compared with, and its seed is the configuration's.
+    fn origin(&self, known: Provenance, job: &Job<'_>) -> Provenance {
+        Provenance {
+            seed: Some(job.seed),
+            dataset_hash: None,
+            ..known
         }
     }
-    provenance.seed = Some(seed);
-    provenance.backend = Some(backend.name().to_owned());
-    provenance.epochs = Some(config.epochs * config.seeds);
-    let (_, parameters) = best.ok_or(TrainError::Diverged { epoch: 1 })?;
-    network(&parameters, provenance).map(Some)
 }
 
 /// Weighted mean squared error of a network's answers over rows and channels.
@@ -115,10 +91,13 @@ fn mean_squared_error(network: &ColourNetwork, rows: &ColourRows) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Backend, Outcome, TrainConfig, train};
     use super::*;
     use crate::dataset::colour::ColourLaw;
     use crate::features::colour::ColourSet;
     use crate::synth::{Purpose, Synth, SynthConfig};
+    use std::path::Path;
+    use std::sync::atomic::{AtomicU32, Ordering};
 
     fn config() -> TrainConfig {
         toml::from_str("hidden = [16, 8]\nepochs = 12\nbatch = 256\nlearning_rate = 1e-2\nschedule = \"cosine\"")
@@ -140,25 +119,34 @@ mod tests {
         )
     }
 
+    fn job<'a>(config: &'a TrainConfig, seed: u64, checkpoint: &'a Path, resume: bool) -> Job<'a> {
+        Job {
+            name: "tiny",
+            config,
+            seed,
+            backend: Backend::Fused,
+            checkpoint,
+            resume,
+            provenance: Provenance::default(),
+        }
+    }
+
+    fn finished(dataset: &ColourDataset, job: &Job<'_>) -> ColourNetwork {
+        match train(dataset, job, &|| false, &mut |_| {}).unwrap() {
+            Outcome::Finished { mlp, .. } => *mlp,
+            other => panic!("{other:?}"),
+        }
+    }
+
     /// A tiny training comes below a third of the best constant colour's error, twice the same to the bit; the mean
     /// colour of the tail alone has a quarter. Control: another seed gives another network.
     #[test]
     fn it_learns_the_same_twice() {
         for set in ColourSet::ALL {
             let (training, validation) = (rows(set, Purpose::Training, 6000), rows(set, Purpose::Validation, 1500));
-            let trained = |seed| {
-                let config = config();
-                let job = ColourJob {
-                    name: "tiny",
-                    config: &config,
-                    seed,
-                    backend: Backend::Fused,
-                    provenance: Provenance::default(),
-                };
-                train_colours(&training, &validation, job, &|| false, &mut |_, _, _| {})
-                    .unwrap()
-                    .unwrap()
-            };
+            let dataset = ColourDataset::new(training, validation.clone());
+            let config = config();
+            let trained = |seed| finished(&dataset, &job(&config, seed, Path::new("none"), false));
             let network = trained(1);
             let total: f64 = validation.weights.iter().map(|&w| f64::from(w)).sum();
             let mut variance = 0.0;
@@ -178,20 +166,29 @@ mod tests {
         }
     }
 
+    /// Stopped amid an epoch of the first network or of the second and resumed: the same weights to the bit as without
+    /// a stop. Control: another seed gives other weights.
     #[test]
-    fn what_is_asked_to_stop_stops() {
-        let rows = rows(ColourSet::StarNt, Purpose::Training, 300);
-        let config = config();
-        let job = ColourJob {
-            name: "tiny",
-            config: &config,
-            seed: 1,
-            backend: Backend::Fused,
-            provenance: Provenance::default(),
+    fn an_interruption_changes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("c.json");
+        let rows = |purpose, pixels| rows(ColourSet::Dfa, purpose, pixels);
+        let dataset = ColourDataset::new(rows(Purpose::Training, 1500), rows(Purpose::Validation, 300));
+        let config = TrainConfig {
+            seeds: 2,
+            epochs: 5,
+            ..config()
         };
-        assert_eq!(
-            train_colours(&rows, &rows, job, &|| true, &mut |_, _, _| {}).unwrap(),
-            None
-        );
+        let straight = finished(&dataset, &job(&config, 1, &path, false));
+        let steps = dataset.training.len().div_ceil(config.batch) as u32;
+        for epochs in [3, 7] {
+            let asked = AtomicU32::new(0);
+            let stop = || asked.fetch_add(1, Ordering::Relaxed) > epochs * steps;
+            let outcome = train(&dataset, &job(&config, 1, &path, false), &stop, &mut |_| {}).unwrap();
+            assert!(matches!(outcome, Outcome::Interrupted { epochs: done, .. } if done == u64::from(epochs)));
+            assert_eq!(finished(&dataset, &job(&config, 1, &path, true)), straight);
+        }
+        let short = TrainConfig { seeds: 1, ..config };
+        assert_ne!(finished(&dataset, &job(&short, 2, &path, false)), straight);
     }
 }

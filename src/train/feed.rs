@@ -11,6 +11,7 @@
 
 use super::Optimiser;
 use super::trainer::TrainError;
+use crate::dataset::colour::ColourRows;
 use crate::dataset::file::Manifest;
 use crate::dataset::stream::Making;
 use crate::dataset::{Batch, Blocks, DatasetError, RowStream, Rows};
@@ -23,20 +24,42 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Keeps the random numbers of shuffling apart from all others.
-const PURPOSE: u64 = 0x1002;
+/// How rows and blocks are shuffled.
+#[derive(Clone, Copy)]
+struct Shuffling {
+    /// Keeps its random numbers apart from all others.
+    purpose: u64,
+    /// Whether an epoch shuffles on from the order of the epoch before, and not from the order of the rows.
+    on: bool,
+}
+
+/// Of the rows of a dataset.
+const SHUFFLING: Shuffling = Shuffling {
+    purpose: 0x1002,
+    on: false,
+};
+
+/// Of the rows of networks that answer with a colour; their weights have always come of it.
+const SHUFFLING_OF_COLOURS: Shuffling = Shuffling {
+    purpose: 0x1011,
+    on: true,
+};
 
 /// Rows to learn from, epoch after epoch.
 pub struct Feed {
     blocks: Blocks,
     blocks_of_step: usize,
     source: Source,
+    /// What the next epoch needs, where it is made already.
     next: Option<Prepared>,
+    /// The order that the next epoch shuffles on from, where it does and is not made yet.
+    before: Option<Vec<u32>>,
 }
 
 /// All that decides what an epoch learns from.
 struct Source {
     seed: u64,
+    shuffling: Shuffling,
     rows: usize,
     blocks: usize,
     segments: u64,
@@ -59,9 +82,7 @@ impl Feed {
     /// [`TrainError::NoStream`] where fresh pixels are asked for and no distribution is known; [`TrainError::Dataset`]
     /// where it is invalid.
     pub fn new(rows: &Rows, manifest: &Manifest, seed: u64, batch: usize, epochs: u64) -> Result<Self, TrainError> {
-        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
-        order.shuffle(&mut stream(seed, PURPOSE, 0));
-        let blocks = Blocks::of(rows, &order);
+        let blocks = Blocks::of(rows, &SHUFFLING.first(seed, rows.len()));
         let refresh = manifest.dataset.refresh;
         let stream = match (refresh > 0.0, &manifest.synth) {
             (false, _) => None,
@@ -78,6 +99,7 @@ impl Feed {
         };
         let source = Source {
             seed,
+            shuffling: SHUFFLING,
             rows: rows.len(),
             blocks: blocks.len(),
             segments,
@@ -88,12 +110,36 @@ impl Feed {
             blocks_of_step: batch / LANES,
             source,
             next: None,
+            before: None,
         };
         for epoch in (epochs + 1).saturating_sub(segments).max(2)..=epochs {
-            let prepared = feed.source.prepare(epoch)?;
+            let prepared = feed.source.prepare(epoch, None)?;
             feed.take_in(&prepared);
         }
         Ok(feed)
+    }
+
+    /// The feed of rows with colours as it stands after so many epochs; none is ever replaced.
+    pub fn of_colours(rows: &ColourRows, seed: u64, batch: usize, epochs: u64) -> Self {
+        let order = SHUFFLING_OF_COLOURS.first(seed, rows.len());
+        let width = rows.set.columns().len();
+        let blocks = Blocks::from_fn(width, 3, 0, rows.len(), |at| rows.row(order[at] as usize));
+        let source = Source {
+            seed,
+            shuffling: SHUFFLING_OF_COLOURS,
+            rows: rows.len(),
+            blocks: blocks.len(),
+            segments: 1,
+            stream: None,
+        };
+        let before = (1..=epochs).fold(source.in_order(), |order, epoch| source.shuffled(order, epoch));
+        Self {
+            blocks,
+            blocks_of_step: batch / LANES,
+            source,
+            next: None,
+            before: Some(before),
+        }
     }
 
     /// Rows of an epoch.
@@ -122,11 +168,12 @@ impl Feed {
     ) -> Result<Option<f64>, TrainError> {
         let prepared = match self.next.take() {
             Some(next) if next.epoch == epoch => next,
-            _ => self.source.prepare(epoch)?,
+            _ => self.source.prepare(epoch, self.before.take().as_deref())?,
         };
         self.take_in(&prepared);
         let (blocks, order) = (&self.blocks, &prepared.order);
-        let preparation = Preparation::new(&self.source, epoch + 1);
+        let before = self.source.shuffling.on.then_some(order.as_slice());
+        let preparation = Preparation::new(&self.source, epoch + 1, before);
         let squared_error = rayon::scope(|scope| {
             if more {
                 preparation.spawn(scope);
@@ -147,6 +194,8 @@ impl Feed {
         };
         if more {
             self.next = Some(preparation.finish()?);
+        } else {
+            self.before = before.map(<[u32]>::to_vec);
         }
         Ok(Some(squared_error / self.source.rows as f64))
     }
@@ -158,7 +207,27 @@ impl Feed {
     }
 }
 
+impl Shuffling {
+    /// The order that rows stand in from the first epoch on.
+    fn first(self, seed: u64, rows: usize) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..rows as u32).collect();
+        order.shuffle(&mut stream(seed, self.purpose, 0));
+        order
+    }
+}
+
 impl Source {
+    /// The blocks as they stand.
+    fn in_order(&self) -> Vec<u32> {
+        (0..self.blocks as u32).collect()
+    }
+
+    /// The order of an epoch, of the one that it is shuffled from.
+    fn shuffled(&self, mut order: Vec<u32>, epoch: u64) -> Vec<u32> {
+        order.shuffle(&mut stream(self.seed, self.shuffling.purpose, epoch));
+        order
+    }
+
     /// The rows that fresh ones replace before an epoch, and the pixel that they start from.
     fn segment(&self, epoch: u64) -> (Range<usize>, u64) {
         let (segment, rows) = ((epoch - 2) % self.segments, self.rows as u64);
@@ -168,9 +237,9 @@ impl Source {
         )
     }
 
-    /// Makes what an epoch needs on all threads.
-    fn prepare(&self, epoch: u64) -> Result<Prepared, DatasetError> {
-        let preparation = Preparation::new(self, epoch);
+    /// Makes what an epoch needs on all threads; `before` is the order that it shuffles on from, if any.
+    fn prepare(&self, epoch: u64, before: Option<&[u32]>) -> Result<Prepared, DatasetError> {
+        let preparation = Preparation::new(self, epoch, before);
         rayon::scope(|scope| preparation.spawn(scope));
         preparation.finish()
     }
@@ -180,6 +249,8 @@ impl Source {
 struct Preparation<'a> {
     source: &'a Source,
     epoch: u64,
+    /// The order that it shuffles on from, if any.
+    before: Option<&'a [u32]>,
     /// Fresh rows where there are any, and which places they take.
     making: Option<(Making<'a>, Range<usize>)>,
     /// Tasks of it that are not done.
@@ -190,7 +261,7 @@ struct Preparation<'a> {
 }
 
 impl<'a> Preparation<'a> {
-    fn new(source: &'a Source, epoch: u64) -> Self {
+    fn new(source: &'a Source, epoch: u64, before: Option<&'a [u32]>) -> Self {
         let making = source.stream.as_ref().filter(|_| epoch >= 2).map(|stream| {
             let (range, pixel) = source.segment(epoch);
             (Making::new(stream, pixel, range.len(), usize::MAX), range)
@@ -199,6 +270,7 @@ impl<'a> Preparation<'a> {
         Self {
             source,
             epoch,
+            before,
             making,
             left,
             cancelled: AtomicBool::new(false),
@@ -228,8 +300,8 @@ impl<'a> Preparation<'a> {
 
     /// The order of the blocks.
     fn shuffle(&self) {
-        let mut order: Vec<u32> = (0..self.source.blocks as u32).collect();
-        order.shuffle(&mut stream(self.source.seed, PURPOSE, self.epoch));
+        let from = self.before.map_or_else(|| self.source.in_order(), <[u32]>::to_vec);
+        let order = self.source.shuffled(from, self.epoch);
         *self.order.lock().unwrap_or_else(PoisonError::into_inner) = order;
     }
 
@@ -240,7 +312,11 @@ impl<'a> Preparation<'a> {
                 .zip(&parts)
                 .flat_map(|(p, part)| (0..part.len() as u32).map(move |row| (p, row)))
                 .collect();
-            order.shuffle(&mut stream(self.source.seed, PURPOSE, (1 << 63) | self.epoch));
+            order.shuffle(&mut stream(
+                self.source.seed,
+                self.source.shuffling.purpose,
+                (1 << 63) | self.epoch,
+            ));
             let width = making.width();
             Blocks::from_fn(width, 1, range.start % LANES, range.len(), |at| {
                 let (part, row) = order[at];

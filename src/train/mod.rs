@@ -18,7 +18,7 @@ pub use backend::{Backend, BackendError};
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use config::{Schedule, TrainConfig, TrainConfigError};
 pub use engine::Engine;
-pub use trainer::{EpochReport, Outcome, TrainError, train};
+pub use trainer::{EpochReport, Outcome, Subject, TrainError, train};
 
 use crate::dataset::Batch;
 use serde::{Deserialize, Serialize};

@@ -4,6 +4,7 @@ use super::checkpoint::{CHECKPOINT_VERSION, Checkpoint, CheckpointError, Losses}
 use super::feed::Feed;
 use super::{AdamMoments, Backend, BackendError, TrainConfig, TrainConfigError, initial};
 use crate::dataset::{Dataset, DatasetError, Rows};
+use crate::features::Answer;
 use crate::model::{Mlp, Provenance, ShapeError};
 use crate::numeric::file::FileError;
 use std::path::{Path, PathBuf};
@@ -58,11 +59,11 @@ pub struct EpochReport {
 
 /// How training ended.
 #[derive(Debug)]
-pub enum Outcome {
+pub enum Outcome<N = Mlp> {
     /// All epochs are done.
     Finished {
         /// The network with the least validation loss.
-        mlp: Box<Mlp>,
+        mlp: Box<N>,
         /// Losses of every epoch.
         history: Vec<Losses>,
     },
@@ -94,6 +95,81 @@ pub struct Job<'a> {
     pub provenance: Provenance,
 }
 
+/// What the loop trains on: rows, and the networks that it makes of parameters.
+pub trait Subject: Sync {
+    /// What is trained.
+    type Network;
+    /// Identifies the rows.
+    fn hash(&self) -> &str;
+    /// Training rows, and validation rows.
+    fn rows(&self) -> [usize; 2];
+    /// (inputs, outputs) of every layer of a network with these hidden ones.
+    fn shapes(&self, hidden: &[usize]) -> Vec<(usize, usize)>;
+    /// How logits become answers.
+    fn answer(&self) -> Answer;
+    /// The training rows as they stand after so many epochs.
+    ///
+    /// # Errors
+    /// As of [`Feed::new`].
+    fn feed(&self, seed: u64, batch: usize, epochs: u64) -> Result<Feed, TrainError>;
+    /// A network of these parameters.
+    ///
+    /// # Errors
+    /// [`ShapeError`] where a number is not finite.
+    fn network(
+        &self,
+        name: &str,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        provenance: Provenance,
+    ) -> Result<Self::Network, ShapeError>;
+    /// Mean squared error over the validation rows.
+    fn validation_loss(&self, network: &Self::Network) -> f64;
+    /// What a network says of its origin, of what the loop knows of it.
+    fn origin(&self, known: Provenance, _: &Job<'_>) -> Provenance {
+        known
+    }
+}
+
+impl Subject for Dataset {
+    type Network = Mlp;
+
+    fn hash(&self) -> &str {
+        &self.manifest.hash
+    }
+
+    fn rows(&self) -> [usize; 2] {
+        [self.training.len(), self.validation.len()]
+    }
+
+    fn shapes(&self, hidden: &[usize]) -> Vec<(usize, usize)> {
+        initial::shapes(self.training.feature_set.width(), hidden)
+    }
+
+    fn answer(&self) -> Answer {
+        self.training.feature_set.answer()
+    }
+
+    fn feed(&self, seed: u64, batch: usize, epochs: u64) -> Result<Feed, TrainError> {
+        Feed::new(&self.training, &self.manifest, seed, batch, epochs)
+    }
+
+    fn network(
+        &self,
+        name: &str,
+        shapes: &[(usize, usize)],
+        parameters: &[f32],
+        provenance: Provenance,
+    ) -> Result<Mlp, ShapeError> {
+        let layers = initial::layers(shapes, parameters)?;
+        Mlp::new(name, self.training.feature_set, layers, provenance)
+    }
+
+    fn validation_loss(&self, network: &Mlp) -> f64 {
+        mean_squared_error(network, &self.validation)
+    }
+}
+
 /// Trains a network, or as many as the configuration says, and keeps the best.
 ///
 /// `observe` is called after every epoch; `stop` is asked before every step, and once it says true the checkpoint is
@@ -101,45 +177,46 @@ pub struct Job<'a> {
 ///
 /// # Errors
 /// [`TrainError`]. A checkpoint that was there stays.
-pub fn train(
-    dataset: &Dataset,
+pub fn train<S: Subject>(
+    subject: &S,
     job: &Job<'_>,
     stop: &(dyn Fn() -> bool + Sync),
     observe: &mut (dyn FnMut(&EpochReport) + Send),
-) -> Result<Outcome, TrainError> {
+) -> Result<Outcome<S::Network>, TrainError>
+where
+    S::Network: Send,
+{
     // On a thread of the pool, whose other threads then wait for work close by.
-    rayon::scope(|_| fit(dataset, job, stop, observe))
+    rayon::scope(|_| fit(subject, job, stop, observe))
 }
 
-fn fit(
-    dataset: &Dataset,
+fn fit<S: Subject>(
+    subject: &S,
     job: &Job<'_>,
     stop: &(dyn Fn() -> bool + Sync),
     observe: &mut (dyn FnMut(&EpochReport) + Send),
-) -> Result<Outcome, TrainError> {
+) -> Result<Outcome<S::Network>, TrainError> {
     job.config.validate()?;
-    for (name, rows) in [("training", &dataset.training), ("validation", &dataset.validation)] {
-        if rows.is_empty() {
+    for (name, rows) in ["training", "validation"].into_iter().zip(subject.rows()) {
+        if rows == 0 {
             return Err(TrainError::NoRows(name));
         }
     }
     let Job { config, seed, .. } = *job;
-    let set = dataset.training.feature_set;
-    let shapes = initial::shapes(set.width(), &config.hidden);
-    let network =
-        |parameters: &[f32], provenance| Mlp::new(job.name, set, initial::layers(&shapes, parameters)?, provenance);
-    let optimiser = |parameters: &[f32]| job.backend.optimiser(set, &shapes, parameters, config);
+    let shapes = subject.shapes(&config.hidden);
+    let network = |parameters: &[f32], provenance| subject.network(job.name, &shapes, parameters, provenance);
+    let optimiser = |parameters: &[f32]| job.backend.optimiser(subject.answer(), &shapes, parameters, config);
 
     let parameters = initial::glorot(&shapes, seed);
     let mut fitted = optimiser(&parameters)?;
-    let mut done = begin(dataset, job, parameters);
+    let mut done = begin(subject.hash(), job, parameters);
     if job.resume {
         done = continued(done, job.checkpoint)?;
         fitted.restore(&done.parameters, &done.moments);
     }
 
     let (first, last) = (done.history.len() as u64 + 1, config.epochs * config.seeds);
-    let mut feed = Feed::new(&dataset.training, &dataset.manifest, seed, config.batch, first - 1)?;
+    let mut feed = subject.feed(seed, config.batch, first - 1)?;
     let steps_of_epoch = feed.steps();
     let mut samples = 0;
     // Networks follow each other; epochs are counted through.
@@ -157,7 +234,7 @@ fn fit(
         if !training.is_finite() || parameters.iter().any(|p| !p.is_finite()) {
             return Err(TrainError::Diverged { epoch });
         }
-        let validation = mean_squared_error(&network(&parameters, Provenance::default())?, &dataset.validation);
+        let validation = subject.validation_loss(&network(&parameters, Provenance::default())?);
         if !validation.is_finite() {
             return Err(TrainError::Diverged { epoch });
         }
@@ -173,7 +250,7 @@ fn fit(
             done.save(job.checkpoint)?;
         }
     }
-    let mlp = network(&done.best_parameters, provenance(job, &done))?;
+    let mlp = network(&done.best_parameters, subject.origin(provenance(job, &done), job))?;
     Ok(Outcome::Finished {
         mlp: Box::new(mlp),
         history: done.history,
@@ -181,13 +258,13 @@ fn fit(
 }
 
 /// The checkpoint of a training before its first epoch.
-fn begin(dataset: &Dataset, job: &Job<'_>, parameters: Vec<f32>) -> Checkpoint {
+fn begin(dataset_hash: &str, job: &Job<'_>, parameters: Vec<f32>) -> Checkpoint {
     Checkpoint {
         format: "nmt-checkpoint".to_owned(),
         version: CHECKPOINT_VERSION,
         config: job.config.clone(),
         seed: job.seed,
-        dataset_hash: dataset.manifest.hash.clone(),
+        dataset_hash: dataset_hash.to_owned(),
         backend: job.backend,
         best_parameters: parameters.clone(),
         parameters,
@@ -229,7 +306,7 @@ fn provenance(job: &Job<'_>, done: &Checkpoint) -> Provenance {
     }
 }
 
-fn interrupted(done: &Checkpoint, path: &Path) -> Result<Outcome, TrainError> {
+fn interrupted<N>(done: &Checkpoint, path: &Path) -> Result<Outcome<N>, TrainError> {
     let epochs = done.history.len() as u64;
     if epochs == 0 {
         return Ok(Outcome::Interrupted {

@@ -155,7 +155,11 @@ fn networks_of_colours_are_trained_and_used() {
         (&["run", "s.toml"][..], "'nmt train' trains it"),
         (
             &["train", "s.toml", "--out", "t.json", "--resume"],
-            "leave out --dataset and --resume",
+            "there is no checkpoint to resume from",
+        ),
+        (
+            &["train", "s.toml", "--out", "t.json", "--dataset", "d"],
+            "leave out --dataset",
         ),
         (&["export", "s.json", "--out", "e"], "dfa:MODEL.json"),
     ] {

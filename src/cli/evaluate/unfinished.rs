@@ -2,8 +2,10 @@
 //! done.
 
 use super::{Row, SceneResults};
+use crate::model::shipped;
 use crate::numeric::digest::sha256_hex;
 use crate::numeric::file::{FileError, Lock, Replace, create_folder, may_write, write_atomically};
+use crate::oit::colour_network;
 use crate::pixel::FragmentList;
 use anyhow::bail;
 use serde::{Deserialize, Serialize};
@@ -25,7 +27,7 @@ const WITHOUT_EFFECT: [&str; 4] = ["--force", "--quiet", "-q", "--json"];
 
 #[derive(Serialize, Deserialize)]
 struct Mark {
-    /// Digest of the command, its networks and the program's version.
+    /// Digest of the command, the files that it reads, and the program with its networks.
     command: String,
 }
 
@@ -47,32 +49,41 @@ pub struct Unfinished {
 
 impl Unfinished {
     /// Takes the folder, and says whether files that stand there may be replaced: with `--force`, and where the same
-    /// command was interrupted.
+    /// command was interrupted. With `--force` nothing goes on: what was kept of these scenes is removed.
     ///
     /// # Errors
     /// Another process works there, or another command was interrupted there.
-    pub fn begin(out: &Path, models: &[Vec<u8>], replace: Replace) -> anyhow::Result<(Self, Replace)> {
+    pub fn begin(
+        out: &Path,
+        scenes: &[String],
+        inputs: &[Vec<u8>],
+        replace: Replace,
+    ) -> anyhow::Result<(Self, Replace)> {
         create_folder(out)?;
         let lock = Lock::acquire(&out.join("evaluate.lock"))?;
-        let command = command(models);
-        let path = out.join(UNFINISHED);
-        let replace = may_replace(out, &command, replace)?;
-        let mark = serde_json::to_string(&Mark {
-            command: command.clone(),
-        })?;
-        write_atomically(&path, Replace::Yes, |w| w.write_all(mark.as_bytes()))?;
+        let command = command(inputs);
+        let goes_on = goes_on(out, &command, replace)?;
         let unfinished = Self {
             out: out.to_owned(),
             command,
             _lock: lock,
         };
-        Ok((unfinished, replace))
+        if !goes_on {
+            unfinished.remove_kept(scenes.iter().map(String::as_str))?;
+        }
+        let mark = serde_json::to_string(&Mark {
+            command: unfinished.command.clone(),
+        })?;
+        write_atomically(&out.join(UNFINISHED), Replace::Yes, |w| w.write_all(mark.as_bytes()))?;
+        Ok((unfinished, if goes_on { Replace::Yes } else { replace }))
     }
 
     /// Refuses what [`Self::begin`] would, and pictures of a scene that may not be replaced; nothing is written, so
     /// that it can be asked before scenes are read.
-    pub fn may_begin(out: &Path, models: &[Vec<u8>], replace: Replace, scenes: &[String]) -> anyhow::Result<()> {
-        let replace = may_replace(out, &command(models), replace)?;
+    pub fn may_begin(out: &Path, inputs: &[Vec<u8>], replace: Replace, scenes: &[String]) -> anyhow::Result<()> {
+        if goes_on(out, &command(inputs), replace)? {
+            return Ok(());
+        }
         let pictures = scenes
             .iter()
             .flat_map(|scene| PICTURES.map(|name| out.join(scene).join(name)));
@@ -111,16 +122,12 @@ impl Unfinished {
 
     /// Removes what was kept: all is done.
     pub fn end(self, scenes: &[SceneResults]) -> Result<(), FileError> {
-        let files = scenes.iter().map(|scene| self.path(&scene.name));
-        for path in files.chain([self.out.join(UNFINISHED)]) {
-            match fs::remove_file(&path) {
-                Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(FileError::io(&path, "cannot remove what was kept")(e));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+        self.remove_kept(scenes.iter().map(|scene| scene.name.as_str()))?;
+        remove(&self.out.join(UNFINISHED))
+    }
+
+    fn remove_kept<'a>(&self, mut scenes: impl Iterator<Item = &'a str>) -> Result<(), FileError> {
+        scenes.try_for_each(|scene| remove(&self.path(scene)))
     }
 
     fn path(&self, scene: &str) -> PathBuf {
@@ -140,20 +147,38 @@ impl Unfinished {
     }
 }
 
-/// Whether a command may replace the files of a folder: with `--force`, or where it was interrupted there itself.
-fn may_replace(out: &Path, command: &str, replace: Replace) -> anyhow::Result<Replace> {
-    let before = match fs::read(out.join(UNFINISHED)) {
-        Ok(text) => serde_json::from_slice::<Mark>(&text).ok(),
-        Err(_) => None,
-    };
-    match before {
-        Some(mark) if mark.command == command => Ok(Replace::Yes),
-        Some(_) if replace == Replace::No => bail!(
+/// Whether a command goes on where it was interrupted itself; with `--force` it begins anew.
+///
+/// # Errors
+/// Another command was interrupted in the folder.
+fn goes_on(out: &Path, command: &str, replace: Replace) -> anyhow::Result<bool> {
+    match mark(out) {
+        Some(mark) if replace == Replace::No && mark.command != command => bail!(
             "{}: another evaluation was interrupted here; finish it by its own command, choose another folder, or \
              pass --force to begin anew",
             out.display()
         ),
-        _ => Ok(replace),
+        left => Ok(left.is_some() && replace == Replace::No),
+    }
+}
+
+/// Which command was interrupted in a folder, if any.
+fn mark(out: &Path) -> Option<Mark> {
+    serde_json::from_slice(&fs::read(out.join(UNFINISHED)).ok()?).ok()
+}
+
+/// Whether this command, with these inputs, was interrupted in a folder: whatever stands there was its to replace.
+pub fn is_left(out: &Path, inputs: &[Vec<u8>]) -> bool {
+    mark(out).is_some_and(|mark| mark.command == command(inputs))
+}
+
+/// Removes a file, if it is there.
+fn remove(path: &Path) -> Result<(), FileError> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+            Err(FileError::io(path, "cannot remove what was kept")(e))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -167,11 +192,48 @@ fn with_infinities(mut rows: Vec<Row>) -> Vec<Row> {
     rows
 }
 
-/// Digest of the command as it was typed, of the model files that it names, and of the program's version.
-fn command(models: &[Vec<u8>]) -> String {
+/// Digest of the command as it was typed, of the files that it reads, of the program's version, and of the networks
+/// that come with the program: one that is built from changed files has the revision of the one before.
+fn command(inputs: &[Vec<u8>]) -> String {
     let effective = |argument: &OsString| !WITHOUT_EFFECT.iter().any(|none| argument == none);
     let arguments: Vec<OsString> = std::env::args_os().skip(1).filter(effective).collect();
     let commit = option_env!("NMT_COMMIT").unwrap_or("");
     let text = format!("{} {commit} {arguments:?}", env!("CARGO_PKG_VERSION"));
-    sha256_hex(std::iter::once(text.as_bytes()).chain(models.iter().map(Vec::as_slice)))
+    digest(&text, inputs, shipped::files().chain(colour_network::SHIPPED))
+}
+
+/// Digest of a command, of the files that it reads and of the networks of the program.
+fn digest(command: &str, inputs: &[Vec<u8>], networks: impl Iterator<Item = &'static [u8]>) -> String {
+    // One digest each, so that no part of one can pass for a part of its neighbour.
+    let of = |part: &[u8]| sha256_hex([part]);
+    let mut digests = vec![of(command.as_bytes())];
+    digests.extend(inputs.iter().map(|input| of(input)));
+    digests.extend(networks.map(of));
+    sha256_hex(digests.iter().map(String::as_bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Controls: another command, another input, and other weights of a network that comes with the program are not
+    /// the same work.
+    #[test]
+    fn what_is_the_same_work() {
+        let networks = || shipped::files().chain(colour_network::SHIPPED);
+        let inputs = [b"model".to_vec(), b"scene".to_vec()];
+        let same = digest("evaluate", &inputs, networks());
+        assert_eq!(same, digest("evaluate", &inputs, networks()));
+        for other in [
+            digest("evaluate --orders 2", &inputs, networks()),
+            digest("evaluate", &[b"models".to_vec(), b"cene".to_vec()], networks()),
+            digest(
+                "evaluate",
+                &inputs,
+                networks().skip(1).chain([b"other weights".as_slice()]),
+            ),
+        ] {
+            assert_ne!(other, same);
+        }
+    }
 }

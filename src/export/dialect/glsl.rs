@@ -1,11 +1,26 @@
 //! OpenGL's and Vulkan's language.
 
 use super::{Precision, ShadingLanguage, guarded, list_of, matrix, structure};
+use crate::export::shader;
+use crate::export::target::{Description, Reader, names, suffixes};
 use crate::numeric::source::{Dialect, Type};
 
 /// GLSL; 4.50 and ES 3.00 read it.
 #[derive(Debug, Clone, Copy)]
 pub struct Glsl;
+
+/// GLSL as a target. There is no f16: no compiler that could execute GLSL in f16 on the CPU reads it.
+pub(super) const TARGET: Description = Description {
+    title: "GLSL",
+    names: names!("glsl"),
+    suffixes: suffixes!("glsl"),
+    language: Some(&Glsl),
+    text: true,
+    plain: true,
+    half: false,
+    write: shader::encode,
+    reader: Reader::Glsl,
+};
 
 impl Dialect for Glsl {
     fn type_name(&self, of: Type) -> String {
@@ -59,7 +74,6 @@ impl Dialect for Glsl {
     }
 }
 
-/// There is no f16: no compiler that could execute GLSL in f16 on the CPU reads it.
 impl ShadingLanguage for Glsl {
     fn dialect(&self) -> &'static dyn Dialect {
         &Self

@@ -1,12 +1,27 @@
 //! Direct3D's language.
 
 use super::{Precision, ShadingLanguage, guarded, list_of, matrix, structure};
+use crate::export::shader;
+use crate::export::target::{Description, Reader, names, suffixes};
 use crate::numeric::source::{Dialect, Type};
 
 /// HLSL, shader model 5 and later. More than four numbers are the rows of a matrix, where other languages have columns:
 /// `m[0]` is the first four of them in all.
 #[derive(Debug, Clone, Copy)]
 pub struct Hlsl;
+
+/// HLSL as a target.
+pub(super) const TARGET: Description = Description {
+    title: "HLSL",
+    names: names!("hlsl"),
+    suffixes: suffixes!("hlsl"),
+    language: Some(&Hlsl),
+    text: true,
+    plain: true,
+    half: true,
+    write: shader::encode,
+    reader: Reader::Hlsl,
+};
 
 impl Dialect for Hlsl {
     fn type_name(&self, of: Type) -> String {

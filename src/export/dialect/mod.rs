@@ -1,15 +1,29 @@
-//! The shading languages, a file each: how one spells what formulas and networks are made of.
+//! The shading languages, a file each: how one spells what formulas and networks are made of, and all else that is
+//! known of it as a target. A new one is a file here, its `mod` and its line in the table of targets.
 
 mod glsl;
 mod hlsl;
+mod metal;
+mod spirv;
 mod wgsl;
 
 pub use glsl::Glsl;
 pub use hlsl::Hlsl;
 pub use wgsl::Wgsl;
 
-use super::Precision;
+use super::target::{Description, JSON, targets};
+use super::{Precision, onnx};
 use crate::numeric::source::{Dialect, Type};
+
+targets! {
+    Wgsl: wgsl::TARGET, "WGSL, WebGPU's language.";
+    Glsl: glsl::TARGET, "GLSL of OpenGL, OpenGL ES, WebGL 2 and Vulkan.";
+    Hlsl: hlsl::TARGET, "HLSL, Direct3D's language.";
+    Metal: metal::TARGET, "Metal's language, through naga.";
+    Spirv: spirv::TARGET, "A SPIR-V module with compute shaders, through naga.";
+    Json: JSON, "The model file.";
+    Onnx: onnx::TARGET, "ONNX.";
+}
 
 /// A shading language that networks are written in.
 pub trait ShadingLanguage: Dialect {
@@ -40,6 +54,10 @@ pub trait ShadingLanguage: Dialect {
     fn scalar_constant(&self, precision: Precision, name: &str, literal: &str) -> String;
     /// What stands before and behind the items of a constant array.
     fn array_constant(&self, name: &str, element: &str, items: usize) -> [String; 2];
+    /// What a line of the comment at the head of a file begins with.
+    fn comment(&self) -> &'static str {
+        "//"
+    }
     /// What the head of a file says about the language.
     fn notes(&self, _: Precision) -> Vec<String> {
         Vec::new()

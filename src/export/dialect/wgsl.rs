@@ -1,11 +1,26 @@
 //! WebGPU's language.
 
 use super::{Precision, ShadingLanguage, list_of, matrix};
+use crate::export::shader;
+use crate::export::target::{Description, Reader, names, suffixes};
 use crate::numeric::source::{Dialect, Type};
 
 /// WGSL.
 #[derive(Debug, Clone, Copy)]
 pub struct Wgsl;
+
+/// WGSL as a target.
+pub(super) const TARGET: Description = Description {
+    title: "WGSL",
+    names: names!("wgsl"),
+    suffixes: suffixes!("wgsl"),
+    language: Some(&Wgsl),
+    text: true,
+    plain: true,
+    half: true,
+    write: shader::encode,
+    reader: Reader::Wgsl,
+};
 
 impl Dialect for Wgsl {
     fn type_name(&self, of: Type) -> String {

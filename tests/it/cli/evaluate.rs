@@ -355,13 +355,30 @@ fn evaluate_goes_on() {
     assert!(done.is_file() && !Path::new(&at.path("e/results.json")).exists());
     evaluate("abuffer", &[]).code(2).stderr(contains("interrupted"));
 
+    // What --force was interrupted in began anew: nothing that stood there before is taken for finished, neither by
+    // itself nor by the same command without it.
+    let kept_of = |path: &Path, remark: &str| {
+        let kept = std::fs::read_to_string(path).unwrap();
+        let marked = kept.replace("\"remarks\":\"\"", &format!("\"remarks\":\"{remark}\""));
+        assert_ne!(marked, kept);
+        std::fs::write(path, marked).unwrap();
+    };
+    kept_of(&done, "of an earlier run");
+    let block_first = at.path("e/a-x/abuffer.png");
+    std::fs::remove_file(&block_first).unwrap();
+    std::fs::create_dir(&block_first).unwrap();
+    evaluate(methods, &["--force"]).code(2).stderr(contains("abuffer.png"));
+    assert!(!done.exists(), "what was kept before --force");
+    std::fs::remove_dir(&block_first).unwrap();
+    std::fs::create_dir_all(&blocked).unwrap();
+    evaluate(methods, &[])
+        .code(2)
+        .stderr(contains("truth.png"))
+        .stdout(contains("earlier").not());
+    std::fs::remove_dir(&blocked).unwrap();
+
     // What is kept of a scene is read and not judged again: it shows in the second attempt.
-    let kept = std::fs::read_to_string(&done).unwrap();
-    std::fs::write(
-        &done,
-        kept.replace("\"remarks\":\"\"", "\"remarks\":\"as it was kept\""),
-    )
-    .unwrap();
+    kept_of(&done, "as it was kept");
     evaluate(methods, &[])
         .success()
         .stdout(contains("as it was kept").and(contains("a-x").and(contains("b-x"))));
@@ -381,5 +398,15 @@ fn evaluate_goes_on() {
     let gone_on = errors(&read());
     assert_eq!(gone_on.len(), 6);
     evaluate(methods, &["--force"]).success();
+    assert_eq!(errors(&read()), gone_on);
+
+    // Interrupted over finished work that it was told to replace, it goes on without being told again.
+    evaluate(methods, &[]).code(2).stderr(contains("already exists"));
+    std::fs::remove_file(&blocked).unwrap();
+    std::fs::create_dir(&blocked).unwrap();
+    evaluate(methods, &["--force"]).code(2);
+    std::fs::remove_dir(&blocked).unwrap();
+    kept_of(&done, "as it was kept");
+    evaluate(methods, &[]).success().stdout(contains("as it was kept"));
     assert_eq!(errors(&read()), gone_on);
 }

@@ -11,15 +11,27 @@ use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use std::path::Path;
 
-/// Ctrl-C in training: exit code 130, a checkpoint, and `--resume` ends with the very model of an undisturbed training.
+/// Ctrl-C in training, of a network of transmittances or of colours: exit code 130, a checkpoint, and `--resume` ends
+/// with the very model of an undisturbed training.
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_a_resumable_checkpoint() {
+    let of_colours = TINY
+        .replacen("features = \"paper\"", "features = \"star-nt\"", 1)
+        .replacen("[train]", "[colours]\npalette = 3\nshading = 0.2\n\n[train]", 1);
+    assert!(of_colours.contains("star-nt") && of_colours.contains("palette"));
+    for config in [TINY, &of_colours] {
+        interrupted_and_resumed(config);
+    }
+}
+
+#[cfg(unix)]
+fn interrupted_and_resumed(config: &str) {
     use std::process::{Command as Process, Stdio};
     let at = Workplace::new();
     let config = at.write(
         "long.toml",
-        &TINY.replacen("epochs = 4", "epochs = 2000\ncheckpoint_every = 1", 1),
+        &config.replacen("epochs = 4", "epochs = 2000\ncheckpoint_every = 1", 1),
     );
     let out = at.path("long.json");
     let checkpoint = at.path("long.checkpoint.json");
