@@ -338,7 +338,7 @@ fn numbers(format: Format, text: &str, language: Target, subject: Subject<'_>, r
     finding.numbers.push(Numbers {
         kind: RowKind::InDistribution,
         export: error,
-        reference: AbsoluteError::default(),
+        reference: None,
         bar: BAR,
         mean_bar: BAR,
     });

@@ -122,7 +122,7 @@ pub fn to_json(finding: &Finding) -> Value {
             json!({
                 "rows": n.kind, "count": n.export.count(), "nonfinite": n.export.nonfinite(),
                     "worst_error": n.export.worst(),
-                "mean_error": n.export.mean(), "reference_worst_error": n.reference.worst(), "bar": n.bar,
+                "mean_error": n.export.mean(), "reference_worst_error": n.reference.map(|r| r.worst()), "bar": n.bar,
                     "mean_bar": n.mean_bar,
             })
         })
@@ -181,7 +181,7 @@ fn text(findings: &[Finding]) -> String {
                 format!("{} {}", n.export.count(), n.kind.name()),
                 format!("{:.2e}", n.export.worst()),
                 format!("{:.2e}", n.export.mean()),
-                format!("{:.2e}", n.reference.worst()),
+                n.reference.map_or("-".to_owned(), |r| format!("{:.2e}", r.worst())),
                 format!("{:.2e}", n.bar),
                 result.to_owned(),
             ];
