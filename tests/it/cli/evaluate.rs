@@ -373,7 +373,7 @@ fn evaluate_goes_on() {
     std::fs::create_dir_all(&blocked).unwrap();
     evaluate(methods, &[])
         .code(2)
-        .stderr(contains("truth.png"))
+        .stderr(contains("abuffer.png"))
         .stdout(contains("earlier").not());
     std::fs::remove_dir(&blocked).unwrap();
 
