@@ -30,9 +30,9 @@ pub enum Reader {
 pub struct Description {
     /// What a person calls it.
     pub title: &'static str,
-    /// Names on the command line and in reports: packed, packed in f16, plain, plain in f16; see [`names!`].
+    /// Names on the command line and in reports: packed, packed in f16, plain, plain in f16.
     pub names: [&'static str; 4],
-    /// What follows the name of the network in the names of files, in the same order; see [`suffixes!`].
+    /// What follows the name of the network in the names of files, in the same order.
     pub suffixes: [&'static str; 4],
     /// The language that it is, or that it is translated from; none for what is no shader.
     pub language: Option<&'static dyn ShadingLanguage>,
