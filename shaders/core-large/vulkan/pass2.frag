@@ -3,7 +3,8 @@
 //
 // Blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD; target VK_FORMAT_R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT,
 // cleared to 0. Set 0: the targets of pass 1, then its storage buffer. With NMT_SUBPASS defined the targets are input
-// attachments of a subpass, which tilers keep on chip.
+// attachments of a subpass, which tilers keep on chip. Depth test, discard and push constants as in pass 1; before the
+// resolve a barrier like that of the targets.
 //
 // Neural moment transparency: network 'core-large', 9-48-24-1, 1608 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 2047c3a13a19dc612f5c4d0b31421acc3ed79459e8fe18b2fc743a11529b0aab.

@@ -1,11 +1,16 @@
 #version 450
-// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth.
+// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth and tested against the depth of
+// what is opaque. Discard what is cut out before the call of nmt_core_insert.
 //
 // All blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD.
 // Target 0: VK_FORMAT_R32G32B32A32_SFLOAT, cleared to 0.
 // Target 1: VK_FORMAT_R32G32_SFLOAT, cleared to 0.
 // Storage buffer at binding 2 of set 0 (feature fragmentStoresAndAtomics): 4 words a pixel, cleared to 0;
 // between the passes a barrier from VK_ACCESS_SHADER_WRITE_BIT to VK_ACCESS_SHADER_READ_BIT of the fragment stage.
+// Push constants of the fragment stage: v_range at offset 0, width at offset 8, 12 bytes.
+// And between the passes one from VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT and
+// VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT to VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT and VK_ACCESS_SHADER_READ_BIT, with
+// layouts to match, or a dependency of the render pass; docs/integration.md has the rest.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.

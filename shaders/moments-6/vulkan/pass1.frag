@@ -1,11 +1,16 @@
 #version 450
-// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth.
+// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth and tested against the depth of
+// what is opaque. Discard what is cut out.
 //
 // All blend factors VK_BLEND_FACTOR_ONE; VK_BLEND_OP_ADD, and VK_BLEND_OP_MAX for target 2 (feature
 // independentBlend).
 // Target 0: VK_FORMAT_R32G32B32A32_SFLOAT, cleared to 0.
 // Target 1: VK_FORMAT_R32G32B32A32_SFLOAT, cleared to 0.
 // Target 2: VK_FORMAT_R32G32_SFLOAT, cleared to -3e38.
+// Push constants of the fragment stage: v_range at offset 0, 8 bytes.
+// Between the passes a barrier from VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT and
+// VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT to VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT and VK_ACCESS_SHADER_READ_BIT, with
+// layouts to match, or a dependency of the render pass; docs/integration.md has the rest.
 //
 // Neural moment transparency: network 'moments-6', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 600, dataset 37f23ca23c85cddd29cc28c82e42ad387652d607b62fdde6a7e9a18fca6b8f75.

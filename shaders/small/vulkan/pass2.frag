@@ -3,7 +3,8 @@
 //
 // Blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD; target VK_FORMAT_R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT,
 // cleared to 0. Set 0: the targets of pass 1. With NMT_SUBPASS defined they are input attachments of a subpass, which
-// tilers keep on chip.
+// tilers keep on chip. Depth test, discard and push constants as in pass 1; before the resolve a barrier like that
+// behind pass 1.
 //
 // Neural moment transparency: network 'small', 7-16-8-1, 248 multiply-adds.
 // Provenance: nmt 0.1.0, commit 122c62af9569, backend fused, seed 1, epochs 600, dataset b329efeb897a86799fe59c425268dc10595a6b88aa3a06fcbd8c3af287331927.

@@ -1,10 +1,15 @@
 #version 450
-// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth.
+// Vulkan, pass 1: draw every transparent surface, in any order, without writing depth and tested against the depth of
+// what is opaque. Discard what is cut out before the call of nmt_core_insert.
 //
 // All blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD.
 %sums // Target {i}: {vkformat{i}}, cleared to 0.
 // Storage buffer at binding {range} of set 0 (feature fragmentStoresAndAtomics): {words} words a pixel, cleared to 0;
 // between the passes a barrier from VK_ACCESS_SHADER_WRITE_BIT to VK_ACCESS_SHADER_READ_BIT of the fragment stage.
+// Push constants of the fragment stage: v_range at offset 0, width at offset 8, 12 bytes.
+// And between the passes one from VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT and
+// VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT to VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT and VK_ACCESS_SHADER_READ_BIT, with
+// layouts to match, or a dependency of the render pass; docs/integration.md has the rest.
 //
 %include nmt_core_insert nmt_core_codes nmt_core_steps nmt_core_absorbance_of nmt_core_moments nmt_core_absorbance
 

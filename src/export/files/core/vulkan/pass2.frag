@@ -3,7 +3,8 @@
 //
 // Blend factors VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD; target VK_FORMAT_R16G16B16A16_SFLOAT or R32G32B32A32_SFLOAT,
 // cleared to 0. Set 0: the targets of pass 1, then its storage buffer. With NMT_SUBPASS defined the targets are input
-// attachments of a subpass, which tilers keep on chip.
+// attachments of a subpass, which tilers keep on chip. Depth test, discard and push constants as in pass 1; before the
+// resolve a barrier like that of the targets.
 //
 %include nmt_core_transmittance nmt_core_codes nmt_core_steps nmt_core_absorbance_of
 
