@@ -8,7 +8,41 @@ use crate::numeric::source::{Expression, Source, Type, Value};
 /// Render targets of four numbers that hold sums and the number of fragments; the target of the range comes behind
 /// them.
 pub fn targets(set: FeatureSet) -> usize {
-    (set.moments() + 2).div_ceil(4)
+    targets_of(set.moments())
+}
+
+/// The same by the number of moments.
+pub(super) fn targets_of(moments: usize) -> usize {
+    (moments + 2).div_ceil(4)
+}
+
+/// Names of the targets of sums.
+pub(super) fn names(moments: usize) -> Vec<String> {
+    (0..targets_of(moments)).map(|i| format!("sums{i}")).collect()
+}
+
+/// Writes `NmtSums`, what pass 1 leaves of a pixel: `count` says what is counted behind the moments, `range` what the
+/// last target holds.
+pub(super) fn structure(source: &Source, moments: usize, count: &str, range: &str) {
+    let name = |number: usize| match number {
+        n if n <= moments => format!("b{n}"),
+        n if n == moments + 1 => count.to_owned(),
+        _ => "0".to_owned(),
+    };
+    let targets = names(moments);
+    let sums: Vec<String> = (0..targets.len())
+        .map(|target| {
+            let names: Vec<String> = (4 * target..4 * target + 4).map(name).collect();
+            format!("({}): blended by addition, cleared to 0.", names.join(", "))
+        })
+        .collect();
+    let of_target = sums.iter().zip(&targets);
+    let mut fields: Vec<_> = of_target
+        .map(|(about, target)| (about.as_str(), target.as_str(), Type::Vec4))
+        .collect();
+    fields.push((range, "range", Type::Vec4));
+    let about = "What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.";
+    source.structure("NmtSums", about, &fields);
 }
 
 /// Numbers that a target of sums holds: four, or what is left for the last.
@@ -34,7 +68,7 @@ pub fn write(source: &Source, spec: &FeatureSpec) {
     let calls = Calls {
         source,
         moments,
-        targets: (0..(moments + 2).div_ceil(4)).map(|i| format!("sums{i}")).collect(),
+        targets: names(moments),
     };
     match spec.depth {
         MomentDepthKind::Window => calls.by_window_depth(),
@@ -54,30 +88,12 @@ impl<'s> Calls<'s> {
 
     /// The structure of what pass 1 writes.
     fn structure(&self, depth: &str, ends: [&str; 2]) {
-        let name = |number: usize| match number {
-            n if n <= self.moments => format!("b{n}"),
-            n if n == self.moments + 1 => "number of fragments".to_owned(),
-            _ => "0".to_owned(),
-        };
-        let sums: Vec<String> = (0..self.targets.len())
-            .map(|target| {
-                let names: Vec<String> = (4 * target..4 * target + 4).map(name).collect();
-                format!("({}): blended by addition, cleared to 0.", names.join(", "))
-            })
-            .collect();
         let range = format!(
             "(-{depth}, {depth}, 0, 0): blended by max, cleared to -3e38, so that it holds {} and {}. Two channels, \
              f32 always.",
             ends[0], ends[1]
         );
-        let mut fields: Vec<_> = sums
-            .iter()
-            .zip(&self.targets)
-            .map(|(about, target)| (about.as_str(), target.as_str(), Type::Vec4))
-            .collect();
-        fields.push((&range, "range", Type::Vec4));
-        let about = "What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.";
-        self.source.structure("NmtSums", about, &fields);
+        structure(self.source, self.moments, "number of fragments", &range);
     }
 
     /// Ends the function of pass 1: b0, moments, 1 for the number of fragments, and the range.

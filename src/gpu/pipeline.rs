@@ -12,7 +12,7 @@ use crate::shader::MethodShader;
 use crate::shader::passes::{Channel, Holds, Limits, Shaders, Target, TargetPrecision};
 use wgpu::TextureFormat::{Depth32Float, R16Float, R32Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float};
 
-/// What stands in a clear pixel of the range, below −v of any fragment, or of both ends, below the number of any code.
+/// What stands in a clear pixel of the range or of both ends: below -v of any fragment, and below any code.
 const NOTHING: f64 = -3.0e38;
 
 /// What this device allows.

@@ -22,16 +22,10 @@ pub const ENTRY: Entry = Entry {
 /// are read two at a time, so that a buffer holds an even number. Without heavy fragments blending keeps both ends.
 pub(super) fn capabilities(set: &CoreSet) -> Capabilities {
     let of_sums = Capabilities::of_sums(set.moments as u32 + 2, false);
-    if set.is_blended() {
-        return Capabilities {
-            bits_per_pixel: of_sums.bits_per_pixel.map(|bits| bits + 64),
-            ..of_sums
-        };
-    }
     Capabilities {
         bits_per_pixel: of_sums.bits_per_pixel.map(|bits| bits + 32 * set.stride() as u32),
         needs: Needs {
-            atomics: true,
+            atomics: !set.is_blended(),
             ..of_sums.needs
         },
         ..of_sums

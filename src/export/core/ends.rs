@@ -4,17 +4,12 @@
 //! The chain hands the farthest slot what is left of the nearest; blending offers every fragment to both. The slots are
 //! the same but in pixels of one depth step, where no fragment is in front of another and every T is 1.
 
+use super::weigh::LANES;
 use super::{dialect, piece};
 use crate::export::Target;
+use crate::export::calls::{names, structure, targets_of};
 use crate::features::core::CoreSet;
 use crate::numeric::source::{Source, Type};
-
-const LANES: [&str; 4] = ["x", "y", "z", "w"];
-
-/// Render targets of four numbers that hold the sums and the number of fragments.
-fn targets(set: CoreSet) -> usize {
-    (set.moments + 2).div_ceil(4)
-}
 
 /// What pass 1 adds to each target of sums: vectors of `absorbance`, the moments `b` and `n`.
 pub fn terms(set: CoreSet, language: Target) -> Vec<String> {
@@ -29,7 +24,7 @@ pub fn terms(set: CoreSet, language: Target) -> Vec<String> {
         let terms: Vec<String> = (4 * target..4 * target + 4).map(term).collect();
         format!("{vector}({})", terms.join(", "))
     };
-    (0..targets(set)).map(of_target).collect()
+    (0..targets_of(set.moments)).map(of_target).collect()
 }
 
 /// Where pass 2 finds a number of the targets: b_0 first, then the moments, then the number of fragments.
@@ -56,28 +51,11 @@ pub fn values(set: CoreSet, language: Target) -> String {
 
 /// `NmtSums`, `nmt_pass1` and `nmt_pass2`, which stand behind codes, [`values`] and weight.
 pub fn passes(set: CoreSet, language: Target) -> String {
-    let names: Vec<String> = (0..targets(set)).map(|i| format!("sums{i}")).collect();
+    let names = names(set.moments);
     let source = Source::new(dialect(language), "nmt");
-    let number = |number: usize| match number {
-        k if k <= set.moments => format!("b{k}"),
-        k if k == set.moments + 1 => "number of fragments that absorb".to_owned(),
-        _ => "0".to_owned(),
-    };
-    let about: Vec<String> = (0..targets(set))
-        .map(|target| {
-            let numbers: Vec<String> = (4 * target..4 * target + 4).map(number).collect();
-            format!("({}): blended by addition, cleared to 0.", numbers.join(", "))
-        })
-        .collect();
     let range = "(nearest, farthest, 0, 0) as nmt_core_end_values has them: blended by max, cleared to -3e38. Two \
                  channels, f32 always.";
-    let of_target = about.iter().zip(&names);
-    let mut fields: Vec<_> = of_target
-        .map(|(about, name)| (&about[..], &name[..], Type::Vec4))
-        .collect();
-    fields.push((range, "range", Type::Vec4));
-    let about = "What pass 1 writes of a fragment, and what pass 2 reads of its pixel, a vector a render target.";
-    source.structure("NmtSums", about, &fields);
+    structure(&source, set.moments, "number of fragments that absorb", range);
     let spelled = dialect(language);
     let parameter = |name: &String| spelled.parameter(&spelled.type_name(Type::Vec4), name);
     let parameters: Vec<String> = names.iter().map(parameter).collect();
@@ -98,13 +76,12 @@ pub fn passes(set: CoreSet, language: Target) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::core::{codes, weigh};
-    use crate::features::core::MAX_MOMENTS;
+    use crate::export::core::{MAX_SHADER_MOMENTS, codes, weigh};
 
     /// WGSL is valid for naga at every number of moments that shaders have.
     #[test]
     fn calls_are_valid_wgsl() {
-        for moments in 1..=4.min(MAX_MOMENTS) {
+        for moments in 1..=MAX_SHADER_MOMENTS {
             let set = CoreSet::new(0, moments);
             let language = Target::Wgsl;
             let text = codes(set, language) + &values(set, language) + &weigh(set, language) + &passes(set, language);

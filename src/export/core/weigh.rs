@@ -16,7 +16,7 @@ use crate::numeric::real::{Constant, Real, c};
 use crate::numeric::source::{Expression, Source, Type};
 
 /// Lanes of a vector.
-const LANES: [&str; 4] = ["x", "y", "z", "w"];
+pub(super) const LANES: [&str; 4] = ["x", "y", "z", "w"];
 
 /// Most moments of a core in shaders: those of a vector.
 pub const MAX_SHADER_MOMENTS: usize = 4;
