@@ -7,7 +7,7 @@
 
 use super::Subject;
 use crate::model::kernel::wide;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{self, LANES};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use std::hint::black_box;
@@ -28,7 +28,7 @@ fn chains<S: Simd, const N: usize>(simd: S) -> (f32, u64) {
         f32x16::splat(simd, black_box(0.999)),
         f32x16::splat(simd, black_box(0.001)),
     );
-    let mut x: [f32x16<S>; N] = std::array::from_fn(|i| f32x16::splat(simd, black_box(i as f32)));
+    let mut x: [f32x16<S>; N] = lanes::array(|i| f32x16::splat(simd, black_box(i as f32)));
     for _ in 0..LENGTH {
         for x in &mut x {
             *x = x.mul_add(factor, summand);

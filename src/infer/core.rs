@@ -10,7 +10,7 @@ use super::passes::{Column, ROWS};
 use super::tiled::Tiled;
 #[cfg(target_arch = "x86_64")]
 use crate::features::FeatureSet;
-use crate::features::core::code::{Codes, CoreFragment, Slot};
+use crate::features::core::code::{Codes, EMPTY, Slot};
 use crate::features::core::formulas::{allowed, share_by_law, transmittance};
 use crate::features::core::pixel::{Between, Query, Sums, with_sums};
 use crate::features::core::{CoreSet, FIXED};
@@ -67,17 +67,15 @@ pub fn run(
         codes,
         slots: set.slots(),
         coded: Coded::default(),
-        waiting: match tail {
-            Tail::Law => None,
-            Tail::Network(network) => Some(Waiting::new(network, FIXED + set.moments)),
-        },
+        tail,
+        waiting: None,
         is_faint_known: switches.faint,
         tally: Tally::default(),
     };
     let mut tally = tasks
         .into_par_iter()
         .map_init(new, |workspace, (own, out, classes)| {
-            with_sums!(set.moments, N => workspace.run::<N>(list, own, out, classes));
+            with_sums!(set.moments, N => workspace.on_lanes::<N>(list, own, out, classes));
             std::mem::take(&mut workspace.tally)
         })
         .reduce(Tally::default, |mut one, other| {
@@ -91,9 +89,7 @@ pub fn run(
 /// Fragments of some pixels as their codes have them, column by column, with a vector of padding.
 #[derive(Default)]
 struct Coded {
-    depth_step: Vec<u32>,
-    absorbance_step: Vec<u32>,
-    /// Codes in the slots of the nearest, the farthest and the heavy.
+    /// Codes in the slots of the nearest, the farthest and the heavy; that of the empty slot where nothing is absorbed.
     codes: [Vec<u32>; 3],
     /// Moment depth and absorbance that the steps stand for.
     z: Vec<f32>,
@@ -104,58 +100,75 @@ impl Coded {
     #[inline(always)]
     fn fill<S: Simd>(&mut self, simd: S, codes: &Codes, view_z: &[f32], alpha: &[f32]) {
         let len = view_z.len().next_multiple_of(LANES) + LANES;
-        let [nearest, farthest, heavy] = &mut self.codes;
-        for column in [
-            &mut self.depth_step,
-            &mut self.absorbance_step,
-            nearest,
-            farthest,
-            heavy,
-        ] {
-            column.resize(len, 0);
+        for column in &mut self.codes {
+            column.resize(len, EMPTY);
         }
         self.z.resize(len, 0.0);
         self.absorbance.resize(len, 0.0);
         for (index, (view_z, alpha)) in view_z.chunks(LANES).zip(alpha.chunks(LANES)).enumerate() {
-            let (mut v, mut a) = ([1.0; LANES], Lanes::ZERO);
-            v[..view_z.len()].copy_from_slice(view_z);
-            a.0[..alpha.len()].copy_from_slice(alpha);
+            let (v, mut a) = (padded(view_z, 1.0), Lanes(padded(alpha, 0.0)));
             a.store(absorbance_lanes(simd, a.load(simd)));
-            let fragments: [CoreFragment; LANES] = std::array::from_fn(|i| codes.fragment(v[i], a.0[i]));
-            let own = index * LANES..(index + 1) * LANES;
-            self.depth_step[own.clone()].copy_from_slice(&fragments.map(|f| f.depth_step));
-            self.absorbance_step[own.clone()].copy_from_slice(&fragments.map(|f| f.absorbance_step));
-            let [nearest, farthest, heavy] = &mut self.codes;
-            nearest[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Nearest, f)));
-            farthest[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Farthest, f)));
-            heavy[own.clone()].copy_from_slice(&fragments.map(|f| codes.encode(Slot::Heavy, f)));
-            self.z[own.clone()].copy_from_slice(&fragments.map(|f| codes.moment_depth(f.depth_step)));
-            self.absorbance[own].copy_from_slice(&fragments.map(|f| codes.absorbance(f.absorbance_step)));
+            let at = index * LANES;
+            let [nearest, farthest, heavy] = self.codes.each_mut().map(|column| vector(column, at));
+            let (z, absorbance) = (vector(&mut self.z, at), vector(&mut self.absorbance, at));
+            // A loop and no closure: only what is inlined here is compiled for this level's vectors.
+            for i in 0..LANES {
+                let fragment = codes.fragment(v[i], a.0[i]);
+                let offered = u32::from(fragment.absorbance_step > 0).wrapping_neg();
+                nearest[i] = codes.encode(Slot::Nearest, fragment) & offered;
+                farthest[i] = codes.encode(Slot::Farthest, fragment) & offered;
+                heavy[i] = codes.encode(Slot::Heavy, fragment) & offered;
+                z[i] = codes.moment_depth(fragment.depth_step);
+                absorbance[i] = codes.absorbance(fragment.absorbance_step);
+            }
         }
     }
 
-    /// Pass 1 over a pixel: [`Sums::add`] of each fragment, but that a fragment no greater than what its slots hold is
-    /// left out of the chain at once.
+    /// Pass 1 over a pixel of two fragments or more: what [`Sums::add`] of each makes. The slots end with the nearest,
+    /// the farthest of the others and the heaviest of the rest, so that they can be chosen one after the other here.
     #[inline(always)]
-    fn sums<const N: usize>(&self, codes: &Codes, slots: usize, own: Range<usize>) -> Sums<N> {
+    fn sums<const N: usize>(&self, slots: usize, own: Range<usize>) -> Sums<N> {
         let mut sums = Sums::<N>::default();
-        for i in own {
-            let fragment = CoreFragment {
-                depth_step: self.depth_step[i],
-                absorbance_step: self.absorbance_step[i],
-            };
-            if fragment.absorbance_step == 0 {
-                continue;
+        let [nearest, farthest, heavy] = self.codes.each_ref().map(|column| &column[own.clone()]);
+        let (z, absorbance) = (&self.z[own.clone()], &self.absorbance[own]);
+        for (&z, &absorbance) in z.iter().zip(absorbance) {
+            sums.count += u32::from(absorbance > 0.0);
+            sums.add_moments(z, absorbance);
+        }
+        let first = greatest(nearest, usize::MAX);
+        let last = greatest(farthest, first);
+        (sums.slots[0], sums.slots[1]) = (nearest[first], farthest[last]);
+        let kept = &mut sums.slots[2..slots];
+        if let Some(least) = kept.len().checked_sub(1) {
+            for (i, &code) in heavy.iter().enumerate() {
+                if code > kept[least] && i != first && i != last {
+                    let mut code = code;
+                    for slot in &mut *kept {
+                        (*slot, code) = (code.max(*slot), code.min(*slot));
+                    }
+                }
             }
-            let is_heavy = slots > 2 && self.codes[2][i] > sums.slots[slots - 1];
-            if is_heavy | (self.codes[0][i] > sums.slots[0]) | (self.codes[1][i] > sums.slots[1]) {
-                codes.insert(&mut sums.slots[..slots], fragment);
-            }
-            sums.count += 1;
-            sums.add_moments(self.z[i], self.absorbance[i]);
         }
         sums
     }
+}
+
+/// Sixteen numbers of a column.
+#[inline(always)]
+fn vector<T>(column: &mut [T], at: usize) -> &mut [T; LANES] {
+    column[at..].first_chunk_mut().expect("columns end with a whole vector")
+}
+
+/// Where the greatest code stands, but for one place; at that place where there is no other.
+#[inline(always)]
+fn greatest(codes: &[u32], except: usize) -> usize {
+    let (mut at, mut most) = (except, None);
+    for (i, &code) in codes.iter().enumerate() {
+        if i != except && most.is_none_or(|most| code > most) {
+            (at, most) = (i, Some(code));
+        }
+    }
+    at
 }
 
 /// Whether some feature set that is listed has a core with so many moments.
@@ -178,25 +191,14 @@ struct Workspace<'a> {
     codes: &'a Codes,
     slots: usize,
     coded: Coded,
+    tail: Tail<'a>,
+    /// Made for the first fragment that needs the network.
     waiting: Option<Waiting<'a>>,
     is_faint_known: bool,
     tally: Tally,
 }
 
 impl Workspace<'_> {
-    fn run<const N: usize>(
-        &mut self,
-        list: &FragmentList,
-        pixels: Range<usize>,
-        out: &mut [f32],
-        classes: &mut [Class],
-    ) {
-        self.on_lanes::<N>(list, pixels, out, classes);
-        for class in classes {
-            self.tally.classes[*class as usize] += 1;
-        }
-    }
-
     /// [`Self::both_passes`] on the widest vectors that there are; where no usual set has so many moments, on those of
     /// every x86-64, since each level of each number of moments takes its time in every build.
     fn on_lanes<const N: usize>(
@@ -233,7 +235,7 @@ impl Workspace<'_> {
                 self.all_in_core(simd, own, out, classes);
                 continue;
             }
-            let sums = self.coded.sums::<N>(self.codes, self.slots, own.clone());
+            let sums = self.coded.sums::<N>(self.slots, own.clone());
             let between = Between::new(self.codes, self.slots, &sums);
             self.pass_2(simd, &between, own, out, classes);
         }
@@ -244,19 +246,17 @@ impl Workspace<'_> {
 
     /// Both passes over a pixel whose fragments are all in the core.
     #[inline(always)]
-    fn all_in_core<S: Simd>(&self, simd: S, own: Range<usize>, out: &mut [f32], classes: &mut [Class]) {
-        let [z, zero] =
-            [&self.coded.z[own.start..own.start + LANES], &[0.0; LANES]].map(|v| f32x16::from_slice(simd, v));
+    fn all_in_core<S: Simd>(&mut self, simd: S, own: Range<usize>, out: &mut [f32], classes: &mut [Class]) {
+        let z = f32x16::from_slice(simd, &self.coded.z[own.start..own.start + LANES]);
+        let zero = f32x16::splat(simd, 0.0);
         let mut front = zero;
         for i in own.clone() {
-            let [core_z, core_absorbance] =
-                [self.coded.z[i], self.coded.absorbance[i]].map(|value| f32x16::splat(simd, value));
+            let core_z = f32x16::splat(simd, self.coded.z[i]);
+            let core_absorbance = f32x16::splat(simd, self.coded.absorbance[i]);
             front += Select::select(core_z.simd_lt(z), core_absorbance, zero);
         }
-        let mut lanes = Lanes::ZERO;
-        lanes.store(transmittance(front, zero, zero));
-        out[own.clone()].copy_from_slice(&lanes.0[..own.len()]);
-        classes[own].fill(Class::Known);
+        store(transmittance(front, zero, zero), own.clone(), out);
+        self.store_classes([0, 0], own, classes);
     }
 
     #[inline(always)]
@@ -269,52 +269,99 @@ impl Workspace<'_> {
         classes: &mut [Class],
     ) {
         for at in own.clone().step_by(LANES) {
-            let len = (own.end - at).min(LANES);
-            let [z, absorbance] =
-                [&self.coded.z, &self.coded.absorbance].map(|column| f32x16::from_slice(simd, &column[at..at + LANES]));
+            let some = at..own.end.min(at + LANES);
+            let z = f32x16::from_slice(simd, &self.coded.z[at..at + LANES]);
+            let absorbance = f32x16::from_slice(simd, &self.coded.absorbance[at..at + LANES]);
             let answers = between.answers(z, absorbance);
             let zero = f32x16::splat(simd, 0.0);
             let mut t = transmittance(answers.depth, zero, zero);
-            let (out_of, class_of) = (&mut out[at..at + len], &mut classes[at..at + len]);
-            class_of.fill(Class::Known);
-            let mut unknown = !answers.is_known.to_bitmask() & ((1 << len) - 1);
+            let (mut unknown, mut faint) = (!answers.is_known.to_bitmask() & ((1 << some.len()) - 1), 0);
             if unknown != 0 {
                 let query = &answers.query;
-                match &mut self.waiting {
-                    None => t = Select::select(answers.is_known, t, by_law(query)),
-                    Some(waiting) => {
+                match self.tail {
+                    Tail::Law => {
+                        t = Select::select(answers.is_known, t, by_law(query));
+                        unknown = 0;
+                    }
+                    Tail::Network(network) => {
                         if self.is_faint_known {
                             let [_, _, _, lower, upper] = query.fixed;
                             let noise = between.bounds_noise(query);
                             let [most, least] = allowed(query.front, query.tail, [lower, upper], noise);
                             let is_faint = (most - least).simd_le(f32x16::splat(simd, 2.0 * VISIBLE));
-                            let faint = unknown & is_faint.to_bitmask();
+                            faint = unknown & is_faint.to_bitmask();
                             if faint != 0 {
                                 let middle = (most + least) * f32x16::splat(simd, 0.5);
                                 t = Select::select(answers.is_known, t, middle);
-                                for_each_lane(faint, |lane| class_of[lane] = Class::Faint);
                                 unknown &= !faint;
                             }
                         }
-                        if unknown.count_ones() as usize == len {
-                            class_of.fill(Class::Network);
-                        } else {
-                            for_each_lane(unknown, |lane| class_of[lane] = Class::Network);
+                        if unknown != 0 {
+                            self.tally.rows += u64::from(unknown.count_ones());
+                            self.waiting
+                                .get_or_insert_with(|| Waiting::new(network, FIXED + N - 1))
+                                .push(simd, query, unknown, some.clone());
                         }
-                        self.tally.rows += u64::from(unknown.count_ones());
-                        waiting.push(simd, query, unknown, at..at + len);
                     }
                 }
             }
-            let mut lanes = Lanes::ZERO;
-            lanes.store(t);
-            out_of.copy_from_slice(&lanes.0[..len]);
+            store(t, some.clone(), out);
+            self.store_classes([unknown, faint], some, classes);
             if let Some(waiting) = &mut self.waiting
                 && waiting.is_full()
             {
                 waiting.flush(out);
             }
         }
+    }
+
+    /// Writes down and counts what decided some fragments of a vector: the network for those whose bits are set, bounds
+    /// that leave next to nothing open, and else what is known. Fragments behind them get something too, where there
+    /// are any, which is written over.
+    #[inline(always)]
+    fn store_classes(&mut self, [network, faint]: [u64; 2], fragments: Range<usize>, classes: &mut [Class]) {
+        let of = |lane: usize| match (network >> lane & 1, faint >> lane & 1) {
+            (0, 0) => Class::Known,
+            (0, _) => Class::Faint,
+            _ => Class::Network,
+        };
+        match classes[fragments.start..].first_chunk_mut::<LANES>() {
+            Some(classes) => {
+                for (lane, class) in classes.iter_mut().enumerate() {
+                    *class = of(lane);
+                }
+            }
+            None => {
+                for (lane, class) in classes[fragments.clone()].iter_mut().enumerate() {
+                    *class = of(lane);
+                }
+            }
+        }
+        let [network, faint] = [network, faint].map(|lanes| u64::from(lanes.count_ones()));
+        self.tally.classes[Class::Network as usize] += network;
+        self.tally.classes[Class::Faint as usize] += faint;
+        self.tally.classes[Class::Known as usize] += fragments.len() as u64 - network - faint;
+    }
+}
+
+/// Writes the answers to some fragments of a vector. Fragments behind them get something too, where there are any,
+/// which is written over: pixels are gone through in order, and those that wait for the network lie in front.
+#[inline(always)]
+fn store<S: Simd>(t: f32x16<S>, fragments: Range<usize>, out: &mut [f32]) {
+    let mut lanes = Lanes::ZERO;
+    lanes.store(t);
+    match out[fragments.start..].first_chunk_mut::<LANES>() {
+        Some(out) => *out = lanes.0,
+        None => out[fragments.clone()].copy_from_slice(&lanes.0[..fragments.len()]),
+    }
+}
+
+/// Numbers of a vector, with a filler behind them where they are fewer.
+#[inline(always)]
+fn padded(values: &[f32], filler: f32) -> [f32; LANES] {
+    match values.first_chunk() {
+        Some(values) => *values,
+        None => std::array::from_fn(|i| values.get(i).copied().unwrap_or(filler)),
     }
 }
 
@@ -447,6 +494,36 @@ mod tests {
             }
         }
         (all, asked)
+    }
+
+    /// Pass 1 by choosing is pass 1 by the chain: the same slots, count and sums to the bit, in any order, with doubles,
+    /// ties, and fragments that absorb nothing. Control: the pixel without its last fragment.
+    #[test]
+    fn chosen_cores_are_those_of_the_chain() {
+        let mut changed = 0;
+        for seed in 0..6 {
+            let list = random_list(seed);
+            let (v0, v1) = list.depth_range().unwrap();
+            let set = CoreSet::new((3 * seed as usize) % 9, 4);
+            let codes = set.layout.codes(v0, v1);
+            let mut coded = Coded::default();
+            dispatch!(Level::new(), simd => coded.fill(simd, &codes, list.view_z(), list.alpha()));
+            for own in list.offsets().windows(2).filter(|of| of[1] - of[0] > 1) {
+                let own = own[0] as usize..own[1] as usize;
+                let mut expected = Sums::<5>::default();
+                for i in own.clone() {
+                    if let Some(fragment) = codes.decode(Slot::Heavy, coded.codes[2][i]) {
+                        expected.add(&codes, set.slots(), fragment);
+                    }
+                }
+                let parts = |sums: Sums<5>| (sums.slots, sums.count, sums.b.map(f32::to_bits));
+                let found = parts(coded.sums(set.slots(), own.clone()));
+                assert_eq!(found, parts(expected), "{set:?} {own:?}");
+                changed +=
+                    usize::from(own.len() > 2 && found != parts(coded.sums(set.slots(), own.start..own.end - 1)));
+            }
+        }
+        assert!(changed > 1000);
     }
 
     /// Sixteen at once are as one by one: within 1e-4, the root of the mean square within 1e-6 (absorbances in lanes

@@ -386,7 +386,7 @@ fn transform_depths_by_pixel<S: Simd>(simd: S, offsets: &[u64], view_z: &[f32], 
         let (nearest, farthest) = view_z[own.clone()]
             .iter()
             .fold((f32::INFINITY, 0.0f32), |(lo, hi), &v| (lo.min(v), hi.max(v)));
-        let range = [nearest, farthest].map(|v| f32x16::splat(simd, v));
+        let range = [f32x16::splat(simd, nearest), f32x16::splat(simd, farthest)];
         for (view_z, z) in view_z[own.clone()].chunks(LANES).zip(z[own].chunks_mut(LANES)) {
             let n = z.len();
             let mut lanes = Lanes([nearest; LANES]);

@@ -4,7 +4,7 @@ use super::passes::Column;
 use crate::features::recentred::formulas::{Others, Pass2, others, place_in_thin, share_of_three};
 use crate::features::recentred::{PixelSums, Rounding};
 use crate::features::visible::{Noise, is_hidden, most_behind};
-use crate::numeric::lanes::{LANES, Lanes};
+use crate::numeric::lanes::{self, LANES, Lanes};
 use crate::numeric::real::{Real, c};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, mask32x16};
@@ -80,13 +80,13 @@ impl<const K: usize> Queue<K> {
 
     #[inline(always)]
     pub(super) fn load<S: Simd>(&self, simd: S, v: usize) -> Sixteen<S, K> {
-        let [z, absorbance, b0, n, centre, half_range, place] = std::array::from_fn(|i| self.fixed[i][v].load(simd));
+        let [z, absorbance, b0, n, centre, half_range, place] = lanes::array(|i| self.fixed[i][v].load(simd));
         Sixteen {
             pass2: Pass2 {
                 z,
                 absorbance,
                 b0,
-                b: std::array::from_fn(|k| self.b[k][v].load(simd)),
+                b: lanes::array(|k| self.b[k][v].load(simd)),
                 n,
                 centre,
                 half_range,
@@ -161,7 +161,7 @@ impl<S: Simd, const K: usize> Sixteen<S, K> {
         let Pass2 { n, b0, absorbance, .. } = self.pass2;
         let unit = b0.like(f64::from(f32::EPSILON));
         let noise = Noise::of(n, b0, others.absorbance, others.half_range, others.noise_growth, unit);
-        let behind = most_behind(others.along, std::array::from_fn(|k| others.m[k]), &noise);
+        let behind = most_behind(others.along, lanes::array(|k| others.m[k]), &noise);
         is_hidden(others.absorbance, absorbance, n, behind, &noise)
     }
 }

@@ -5,7 +5,7 @@
 //! from registers.
 
 use crate::features::MAX_LOG_ABSORBANCE;
-use crate::numeric::lanes::{LANES, Lanes, exp};
+use crate::numeric::lanes::{self, LANES, Lanes, exp};
 use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
@@ -170,9 +170,9 @@ fn hidden_block<S: Simd, const O: usize, const V: usize>(
     let zero = f32x16::splat(simd, 0.0);
     for v in (0..TILE).step_by(V) {
         for o in (0..outputs).step_by(O) {
-            let mut sum: [[f32x16<S>; V]; O] = std::array::from_fn(|j| [f32x16::splat(simd, b[o + j]); V]);
+            let mut sum: [[f32x16<S>; V]; O] = lanes::array(|j| [f32x16::splat(simd, b[o + j]); V]);
             for (k, x) in x.iter().enumerate() {
-                let x: [f32x16<S>; V] = std::array::from_fn(|n| x[v + n].load(simd));
+                let x: [f32x16<S>; V] = lanes::array(|n| x[v + n].load(simd));
                 let w = &w[k * outputs + o..][..O];
                 for j in 0..O {
                     let w = f32x16::splat(simd, w[j]);

@@ -31,6 +31,20 @@ impl Lanes {
     }
 }
 
+/// [`std::array::from_fn`] that is always inlined. What lanes go through must be: functions of the standard library are
+/// compiled without the vectors of the level in use, so that they call for each number and hand it on in memory.
+#[inline(always)]
+pub fn array<T: Copy, const N: usize>(mut f: impl FnMut(usize) -> T) -> [T; N] {
+    if N == 0 {
+        return std::array::from_fn(f);
+    }
+    let mut out = [f(0); N];
+    for (i, out) in out.iter_mut().enumerate().skip(1) {
+        *out = f(i);
+    }
+    out
+}
+
 /// e^x.
 ///
 /// # Domain

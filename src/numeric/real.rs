@@ -242,7 +242,7 @@ pub trait Real:
         parameters: [(&str, Self); N],
         body: impl FnOnce([Self; N]) -> Self,
     ) -> Self {
-        body(std::array::from_fn(|i| parameters[i].1))
+        body(lanes::array(|i| parameters[i].1))
     }
 
     /// [`Self::step`] with an array behind the other parameters, and an array as the result, by the name that it has in
@@ -256,7 +256,7 @@ pub trait Real:
         _result: &str,
         body: impl FnOnce([Self; N], [Self; K]) -> [Self; M],
     ) -> [Self; M] {
-        body(std::array::from_fn(|i| parameters[i].1), array.1)
+        body(lanes::array(|i| parameters[i].1), array.1)
     }
 }
 

@@ -9,7 +9,7 @@ use super::{AdamMoments, Optimiser, TrainConfig};
 use crate::dataset::{Batch, Blocks};
 use crate::features::Answer;
 use crate::model::kernel::{Padded, Row, TILE, ZEROS, absorbance, hidden, hidden_layers, logit, shipped_sizes, wide};
-use crate::numeric::lanes::{Lanes, exp, sigmoid};
+use crate::numeric::lanes::{self, Lanes, exp, sigmoid};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16};
 use rayon::prelude::*;
@@ -50,11 +50,10 @@ fn outer<S: Simd, const K: usize, const O: usize>(
     let x = &x[k..k + K];
     for o in (0..outputs).step_by(O) {
         let d = &d[o..o + O];
-        let mut sum: [[f32x16<S>; O]; K] =
-            std::array::from_fn(|i| std::array::from_fn(|j| g[(k + i) * outputs + o + j].load(simd)));
+        let mut sum: [[f32x16<S>; O]; K] = lanes::array(|i| lanes::array(|j| g[(k + i) * outputs + o + j].load(simd)));
         for v in 0..TILE {
-            let x: [f32x16<S>; K] = std::array::from_fn(|i| x[i][v].load(simd));
-            let d: [f32x16<S>; O] = std::array::from_fn(|j| d[j][v].load(simd));
+            let x: [f32x16<S>; K] = lanes::array(|i| x[i][v].load(simd));
+            let d: [f32x16<S>; O] = lanes::array(|j| d[j][v].load(simd));
             for i in 0..K {
                 for j in 0..O {
                     sum[i][j] = x[i].mul_add(d[j], sum[i][j]);
@@ -121,7 +120,7 @@ fn pull_back_block<S: Simd, const K: usize, const V: usize>(
         for k in (0..inputs).step_by(K) {
             let mut sum = [[zero; V]; K];
             for (o, d) in d.iter().enumerate() {
-                let d: [f32x16<S>; V] = std::array::from_fn(|n| d[v + n].load(simd));
+                let d: [f32x16<S>; V] = lanes::array(|n| d[v + n].load(simd));
                 for i in 0..K {
                     let w = f32x16::splat(simd, w[(k + i) * outputs + o]);
                     for n in 0..V {

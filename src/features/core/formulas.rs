@@ -1,6 +1,7 @@
 //! Arithmetic of core and tail, each formula once, over every kind of number.
 
 use super::FIXED;
+use crate::numeric::lanes;
 use crate::numeric::real::{Real, c};
 
 /// Added to b_0'' before its logarithm is taken, so that a faint tail stays finite.
@@ -25,7 +26,7 @@ const ROUNDINGS: f64 = 16.0;
 #[inline(always)]
 pub fn without<R: Real, const N: usize>(b: [R; N], absorbance: R, z: R) -> [R; N] {
     let mut term = absorbance;
-    std::array::from_fn(|k| {
+    lanes::array(|k| {
         let rest = b[k] - term;
         term *= z;
         rest
@@ -60,7 +61,7 @@ pub fn absorbance_of<R: Real, const N: usize>(tail: [R; N]) -> R {
 #[inline(always)]
 pub fn normalised<R: Real, const N: usize>(tail: [R; N]) -> [R; N] {
     let per = (c(1.0) / tail[0].max(c(MIN_ABSORBANCE))).named("per_b0");
-    std::array::from_fn(|k| {
+    lanes::array(|k| {
         if k == 0 {
             tail[0].like(1.0)
         } else {
@@ -187,7 +188,7 @@ pub fn bounds<R: Real, const N: usize>(x: R, m: [R; N]) -> [R; 2] {
     match N {
         0..=2 => bounds_of_one(x, m[1]),
         3..=4 => bounds_of_two(x, [m[1], m[2.min(N - 1)]]),
-        _ => bounds_of_four(x, std::array::from_fn(|k| m[(k + 1).min(N - 1)])),
+        _ => bounds_of_four(x, lanes::array(|k| m[(k + 1).min(N - 1)])),
     }
 }
 
@@ -289,7 +290,10 @@ pub fn bounds_noise<R: Real, const N: usize>(total: R, tail: R, [center, per_h]:
 /// The greatest and the least T that bounds of the share in front allow, where rounding may have moved them by `noise`.
 #[inline(always)]
 pub fn allowed<R: Real>(front: R, tail: R, [lower, upper]: [R; 2], noise: R) -> [R; 2] {
-    [(lower - noise).max(c(0.0)), (upper + noise).min(c(1.0))].map(|share| transmittance(front, tail, share))
+    [
+        transmittance(front, tail, (lower - noise).max(c(0.0))),
+        transmittance(front, tail, (upper + noise).min(c(1.0))),
+    ]
 }
 
 /// The features that stand in front of means and spreads: x, count, ln_b0, lower, upper. `count` and `tail` are number

@@ -6,6 +6,7 @@ use super::formulas::{
     share_of_two, without,
 };
 use super::{CoreSet, FIXED};
+use crate::numeric::lanes;
 use crate::numeric::real::{Real, c};
 use crate::pixel::{Pixel, absorbance};
 
@@ -191,7 +192,7 @@ impl<const N: usize> Between<N> {
         let removed = R::select(in_core.eq(zero), absorbance, zero);
         let count = number(self.count as f32) - R::select(removed.gt(zero), one, zero);
         let x = ((z - number(self.center)) * number(self.per_h)).clamp(c(-1.0), c(1.0));
-        let tail = without(self.tail.map(number), removed, x);
+        let tail = without(lanes::array(|k| number(self.tail[k])), removed, x);
         let absorbance = absorbance_of(tail);
         let m = normalised(tail);
         let (is_nearest, is_farthest) = (z.le(number(self.ends[0])), z.ge(number(self.ends[1])));
@@ -226,7 +227,7 @@ impl<const N: usize> Between<N> {
     pub fn bounds_noise<R: Real>(&self, query: &Query<N, R>) -> R {
         let number = |value: f32| query.tail.like(value.into());
         let range = [number(self.center), number(self.per_h)];
-        let described = [1, 2.min(N - 1)].map(|k| query.described[k]);
+        let described = [query.described[1], query.described[2.min(N - 1)]];
         bounds_noise::<R, N>(number(self.total), query.tail, range, described)
     }
 }

@@ -6,6 +6,7 @@ use super::{
     INNER_SPREAD_OF_SPREAD, MAX_ABSORBANCE, MEAN_DEVIATION, MIN_HALF_RANGE, MIN_MASS, NOISE_GROWTH, Rounding,
     SPREAD_DEVIATION, THIN, USUAL_INNER_SPREAD, USUAL_SPREAD,
 };
+use crate::numeric::lanes;
 use crate::numeric::real::{Divisor, Real, c, square};
 
 /// Share of a pixel's absorbance up to which the others of a fragment count as none.
@@ -82,10 +83,13 @@ pub fn moments<R: Real, const K: usize>(z: R, absorbance: R) -> [R; K] {
         #[inline(always)]
         |[z, absorbance], []| {
             let mut term = absorbance;
-            std::array::from_fn(|k| {
-                term = (term * z).named_at("moment", k + 1);
-                term
-            })
+            lanes::array(
+                #[inline(always)]
+                |k| {
+                    term = (term * z).named_at("moment", k + 1);
+                    term
+                },
+            )
         },
     )
 }
@@ -122,7 +126,7 @@ fn recentred_moments<R: Real, const K: usize>(
         #[inline(always)]
         |[z, absorbance, centre, per_h, per_b0], b| {
             let own = moments::<R, K>(z, absorbance);
-            let mut m: [R; K] = std::array::from_fn(|k| ((b[k] - own[k]) * per_b0).named_at("m", k + 1));
+            let mut m: [R; K] = lanes::array(|k| ((b[k] - own[k]) * per_b0).named_at("m", k + 1));
             m[0] = m[0].note("Moments of z - c, one factor at a time.");
             // E[z^{k−j} (z − c)^j] = E[z^{k−j+1} (z − c)^{j−1}] − c E[z^{k−j} (z − c)^{j−1}]
             for pass in 0..K {
@@ -138,14 +142,17 @@ fn recentred_moments<R: Real, const K: usize>(
             // No factor overflows, so that 0 stays 0 however thin the pixel.
             let h2 = square(per_h).named("per_h2");
             let powers = [per_h, h2, (h2 * per_h).named("per_h3"), square(h2).named("per_h4")];
-            std::array::from_fn(|k| {
-                let scaled = if k < 4 {
-                    m[k] * powers[k]
-                } else {
-                    m[k] * powers[3] * powers[k - 4]
-                };
-                scaled.clamp(c(-1.0), c(1.0))
-            })
+            lanes::array(
+                #[inline(always)]
+                |k| {
+                    let scaled = if k < 4 {
+                        m[k] * powers[k]
+                    } else {
+                        m[k] * powers[3] * powers[k - 4]
+                    };
+                    scaled.clamp(c(-1.0), c(1.0))
+                },
+            )
         },
     )
 }
