@@ -25,7 +25,7 @@ pub const UNITS: usize = 8;
 /// time: `shipped_sizes!(callback, arguments)` is `callback!(@ [[7, 32, 16] ...] arguments)`. This is their one place.
 macro_rules! shipped_sizes {
     ($callback:ident, $($arguments:tt)*) => {
-        $callback!(@ [[7, 32, 16] [9, 32, 16] [9, 48, 24] [7, 16, 8] [9, 16, 8]] $($arguments)*)
+        $callback!(@ [[7, 32, 16] [9, 32, 16] [7, 16, 8] [9, 16, 8]] $($arguments)*)
     };
 }
 pub(crate) use shipped_sizes;
