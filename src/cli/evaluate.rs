@@ -131,6 +131,8 @@ struct Session<'a> {
     background: [f64; 3],
     methods: Vec<Requested>,
     gpu: Option<&'static Gpu>,
+    /// What the files hold that say what is evaluated; see [`Evaluate::inputs`].
+    inputs: Vec<Vec<u8>>,
 }
 
 /// A method's numbers on a scene, on the CPU and where it was drawn there on the GPU.
@@ -185,11 +187,10 @@ impl Evaluate {
             }
             return Ok(Verdict::Fine);
         }
-        let inputs = self.inputs()?;
-        Unfinished::may_begin(&self.out, &inputs, session.replace, &names)?;
+        Unfinished::may_begin(&self.out, &session.inputs, session.replace, &names)?;
         let lists = session.lists(&scenes)?;
         let unfinished;
-        (unfinished, session.replace) = Unfinished::begin(&self.out, &names, &inputs, session.replace)?;
+        (unfinished, session.replace) = Unfinished::begin(&self.out, &names, &session.inputs, session.replace)?;
         let mut results = Vec::new();
         for ((scene, name), list) in scenes.iter().zip(&names).zip(lists) {
             let found = match unfinished.restore(name, &list) {
@@ -235,7 +236,8 @@ impl Evaluate {
             bail!("--tint {wrong}: a strength lies from 0 to 1");
         }
         let methods = self.requested()?;
-        if !unfinished::is_left(&self.out, &self.inputs()?) {
+        let inputs = self.inputs()?;
+        if !unfinished::is_left(&self.out, &inputs) {
             may_write(&self.out.join(RESULTS), replace)?;
         }
         Ok(Session {
@@ -246,6 +248,7 @@ impl Evaluate {
             background: self.view.background()?,
             methods,
             gpu: if self.gpu { Some(Gpu::shared()?) } else { None },
+            inputs,
         })
     }
 

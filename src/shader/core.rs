@@ -12,11 +12,7 @@ use crate::features::core::CoreSet;
 pub(super) fn module(set: CoreSet, network: &str, open: f32) -> String {
     let weigh = match network {
         "" => weigh(set, Target::Wgsl),
-        _ => weigh_by_network(set, Target::Wgsl).replacen(
-            &format!("{OPEN_SWITCH}: f32 = 0.0;"),
-            &format!("{OPEN_SWITCH}: f32 = {open:?};"),
-            1,
-        ),
+        _ => weigh_by_network(set, Target::Wgsl, open),
     };
     let listed = |items: Vec<String>| items.join(", ");
     let lanes = ["x", "y", "z", "w"];

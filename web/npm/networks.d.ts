@@ -10,5 +10,5 @@ export const ends: string;
 export const coreSmall: string;
 /** WGSL of both passes with the network `core`: 9-32-16-1, 816 multiply-adds a fragment. */
 export const core: string;
-/** WGSL of both passes with the network `core-large`: 9-48-24-1, 1608 multiply-adds a fragment. */
+/** WGSL of both passes with the network `core-large`: 9-32-16-1, 816 multiply-adds a fragment. */
 export const coreLarge: string;

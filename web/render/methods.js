@@ -216,7 +216,7 @@ fn total(at: vec2<i32>) -> f32 {
   ends("ends", "NMT ends", "four moments, and both ends with their absorbance; 32-16-1 for what they do not answer"),
   core("core-small", "NMT core-small", 2, "14-8-1, 246 multiply-adds for what the core does not answer"),
   core("core", "NMT core", 4, "32-16-1 for what the core does not answer"),
-  core("core-large", "NMT core-large", 6, "48-24-1 for what the core does not answer"),
+  core("core-large", "NMT core-large", 6, "32-16-1 for what the core does not answer"),
 ];
 
 /** A method by its name. */

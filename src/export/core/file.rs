@@ -105,7 +105,7 @@ pub fn calls(mlp: &Mlp, language: Target, place: CoreBinding) -> String {
     let (codes, keep) = (codes(set, language), keep(set, language, place));
     let resolve = Source::new(dialect(language), "nmt");
     write_resolve(&resolve);
-    let weigh = weigh_by_network(set, language);
+    let weigh = weigh_by_network(set, language, 0.0);
     let passes = calls_of_passes(set, language);
     format!("\n{codes}\n{keep}{weigh}{passes}{}", resolve.into_text())
 }

@@ -32,10 +32,13 @@ pub fn known_fragments(set: CoreSet) -> usize {
 }
 
 /// Who shares out a tail of which nothing is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Tail {
     Law,
-    Network,
+    /// The exported network, where the bounds leave more than so much of T open.
+    Network {
+        open: f32,
+    },
 }
 
 /// `nmt_core_transmittance` of a core whose tail is a beta law, and what it calls, which stand behind the codes.
@@ -47,12 +50,12 @@ pub fn weigh(set: CoreSet, language: Target) -> String {
 }
 
 /// `nmt_core_transmittance` of a core whose tail a network shares out, and what it calls, which stand behind the codes
-/// and the network's export.
+/// and the network's export. [`OPEN_SWITCH`] is `open`.
 ///
 /// # Panics
 /// If there are more than [`MAX_SHADER_MOMENTS`] moments.
-pub fn weigh_by_network(set: CoreSet, language: Target) -> String {
-    whole(set, language, Tail::Network)
+pub fn weigh_by_network(set: CoreSet, language: Target, open: f32) -> String {
+    whole(set, language, Tail::Network { open })
 }
 
 fn whole(set: CoreSet, language: Target, tail: Tail) -> String {
@@ -259,10 +262,10 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     parameters.extend(names.iter().flatten().map(|name| (&name[..], Type::Vec4)));
     parameters.extend([("n", Type::Real), ("b0", Type::Real), ("moments", Type::Vec4)]);
     let source = Source::new(dialect(language), "nmt_core");
-    if tail == Tail::Network {
+    if let Tail::Network { open } = tail {
         let about = "Where the moments of the tail leave T open by no more than this, it is the middle of what they \
                      allow, and the network is not asked. 0 always asks it; 1/256 cannot be seen.";
-        source.constant(OPEN_SWITCH, about, 0.0);
+        source.constant(OPEN_SWITCH, about, open);
     }
     source.begin_function(
         "nmt_core_weigh",
@@ -286,7 +289,7 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     let (n, bits) = (source.real("n"), set.layout.depth_bits);
     match tail {
         Tail::Law => source.return_value(weigh_by_law(own, &core, n, b, bits)),
-        Tail::Network => ask_network(&source, query(own, &core, n, b, bits)),
+        Tail::Network { .. } => ask_network(&source, query(own, &core, n, b, bits)),
     }
     source.into_text()
 }
