@@ -496,8 +496,8 @@ mod tests {
         (all, asked)
     }
 
-    /// Pass 1 by choosing is pass 1 by the chain: the same slots, count and sums to the bit, in any order, with doubles,
-    /// ties, and fragments that absorb nothing. Control: the pixel without its last fragment.
+    /// Pass 1 by choosing is pass 1 by the chain: the same slots, count and sums to the bit, with doubles, ties, and
+    /// fragments that absorb nothing. Control: the pixel without its last fragment.
     #[test]
     fn chosen_cores_are_those_of_the_chain() {
         let mut changed = 0;
