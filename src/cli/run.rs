@@ -1,21 +1,14 @@
 //! `nmt run`: the main job in one go.
 
 use super::check::{CheckArguments, findings, to_json, verdict};
-use super::config::Config;
 use super::train::{TrainOptions, Trained, fit};
 use super::ui::{Ui, table};
 use super::{Verdict, generate, shown};
 use crate::check::{Finding, Status};
-use crate::dataset::build::pixels_holding;
 use crate::dataset::file as dataset_file;
-use crate::evaluate::transmittance_error;
 use crate::export::{self, Format};
-use crate::features::MomentDepthKind;
-use crate::model::Mlp;
 use crate::numeric::file::{FileError, Lock, Replace, remove_stale_files, write_atomically};
 use crate::numeric::tolerance::AbsoluteError;
-use crate::oit::{Context, neural::Neural};
-use crate::synth::{Purpose, Synth};
 use crate::train::checkpoint::{lock_path_for, path_for};
 use anyhow::bail;
 use clap::Args;
@@ -70,9 +63,7 @@ impl Run {
         let Some(mut trained) = fit(&config, &dataset, &self.train, &checkpoint, &stages)? else {
             return Ok(Verdict::Interrupted);
         };
-        let error = evaluate(&config, &trained.mlp)?;
-        trained.mlp.provenance.transmittance_mse = Some(error.mse());
-        trained.mlp.provenance.transmittance_worst_error = Some(error.worst());
+        let error = trained.measure(&config)?;
         trained.keep(&model, Replace::Yes, &checkpoint)?;
 
         export::write(&trained.mlp, &exports, &Format::DEFAULT, None, Replace::Yes)?;
@@ -184,26 +175,6 @@ fn clear(out: &Path, resume: bool, same: bool) -> Result<(), FileError> {
 fn write_json(path: &Path, value: &Value) -> anyhow::Result<()> {
     let text = serde_json::to_string_pretty(value)? + "\n";
     Ok(write_atomically(path, Replace::Yes, |w| w.write_all(text.as_bytes()))?)
-}
-
-/// Error of T on fresh pixels of the configured distribution, over all fragments, those that need no network too.
-fn evaluate(config: &Config, mlp: &Mlp) -> anyhow::Result<AbsoluteError> {
-    let synth = Synth::new(config.synth.clone(), config.seed)?;
-    let list = pixels_holding(&synth, Purpose::Evaluation, config.evaluate.pairs, &|_| {});
-    let camera = config.synth.camera;
-    let depth_range = (mlp.feature_set().moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
-    let answers = Neural::new(mlp.clone()).transmittance(
-        &list,
-        Context {
-            planes: None,
-            depth_range,
-        },
-        &|_| {},
-    )?;
-    Ok(transmittance_error(
-        &answers,
-        &mlp.feature_set().target().of_list(&list),
-    ))
 }
 
 fn text(out: &Path, trained: &Trained, error: &AbsoluteError, findings: &[Finding], seconds: f64) -> String {

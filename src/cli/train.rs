@@ -4,9 +4,15 @@ use super::colour::{self, ColourConfig};
 use super::config::Config;
 use super::ui::Ui;
 use super::{Verdict, generate, interrupt, keep_inputs};
+use crate::dataset::build::pixels_holding;
 use crate::dataset::{Dataset, file as dataset_file};
+use crate::evaluate::transmittance_error;
+use crate::features::MomentDepthKind;
 use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
+use crate::numeric::tolerance::AbsoluteError;
+use crate::oit::{Context as Scene, neural::Neural};
+use crate::synth::{Purpose, Synth};
 use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
 use crate::train::{Backend, BackendError, Outcome, Subject, TrainConfig, train};
@@ -136,9 +142,13 @@ impl Train {
             Some(folder) => dataset_file::read_from(folder)?,
             None => generate::build(&config, ui)?,
         };
-        let Some(trained) = fit(&config, &dataset, &self.options, &checkpoint, ui)? else {
+        let Some(mut trained) = fit(&config, &dataset, &self.options, &checkpoint, ui)? else {
             return Ok(Verdict::Interrupted);
         };
+        // Pixels that were drawn from given lists have no distribution to draw others from.
+        if dataset.manifest.synth.is_some() {
+            trained.measure(&config)?;
+        }
         trained.keep(&self.out, replace, &checkpoint)?;
         if ui.json() {
             ui.print_json("train", vec![trained.to_json()])?;
@@ -198,6 +208,25 @@ pub struct Trained<N = Mlp> {
 }
 
 impl Trained {
+    /// Error of T on fresh pixels of the configured distribution, over all fragments, those that need no network too;
+    /// the network keeps it.
+    pub fn measure(&mut self, config: &Config) -> anyhow::Result<AbsoluteError> {
+        let synth = Synth::new(config.synth.clone(), config.seed)?;
+        let list = pixels_holding(&synth, Purpose::Evaluation, config.evaluate.pairs, &|_| {});
+        let camera = config.synth.camera;
+        let set = self.mlp.feature_set();
+        let depth_range = (set.moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
+        let context = Scene {
+            planes: None,
+            depth_range,
+        };
+        let answers = Neural::new(self.mlp.clone()).transmittance(&list, context, &|_| {})?;
+        let error = transmittance_error(&answers, &set.target().of_list(&list));
+        self.mlp.provenance.transmittance_mse = Some(error.mse());
+        self.mlp.provenance.transmittance_worst_error = Some(error.worst());
+        Ok(error)
+    }
+
     /// Writes the model and, beside it, the losses of every epoch; the checkpoint has served.
     pub fn keep(&self, model: &Path, replace: Replace, checkpoint: &Path) -> Result<(), FileError> {
         file::save(model, replace, &self.mlp)?;

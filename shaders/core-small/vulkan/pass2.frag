@@ -8,7 +8,7 @@
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.550e-3, worst 1.000.
 
 const mat4 NMT_W1[12] = mat4[12](
     mat4(vec4(4.633581, 1.5577128, 4.847308, -7.9550843), vec4(-0.040778674, 0.30109483, 0.18810418, 0.08001085), vec4(0.1270906, -0.113899805, -0.09940042, 0.06291714), vec4(-5.239348, 4.4244847, 11.981173, -5.647331)),

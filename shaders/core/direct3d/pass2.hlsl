@@ -5,7 +5,7 @@
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.076e-3, worst 1.000.
 
 static const float4x4 NMT_W1[24] = {
     float4x4(float4(5.105601f, -7.776949f, -6.0050955f, 4.35002f), float4(0.023220908f, 0.30917516f, -0.13695663f, -0.14382242f), float4(0.21147795f, 0.35639855f, -0.062964685f, 0.002809352f), float4(-2.5967512f, 22.351898f, -23.143448f, -205.42451f)),

@@ -9,7 +9,7 @@
 //
 // Neural moment transparency: network 'core', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 6000, dataset e4b670063e777080a8d4e335c8112fc6ed2f2f51991ae458c750de88c0ee67d6.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.076e-3, worst 1.000.
 
 const NMT_DEPTH_BITS: u32 = 16u;
 // Steps of absorbance to the octave, as a power of two.

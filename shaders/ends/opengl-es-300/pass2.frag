@@ -10,7 +10,7 @@ precision highp sampler2D;
 
 // Neural moment transparency: network 'ends', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit a11f08561d89, backend fused, seed 1, epochs 1500, dataset 381d5ef98678649c941c2c4c7bd79249c8745cf2398e785a10c209e31313e407.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.982e-3, worst 1.000.
 
 const mat4 NMT_W1[24] = mat4[24](
     mat4(vec4(1.4317298, 2.191651, 6.727079, -3.751045), vec4(-0.060478445, 0.11461254, -0.1646913, -0.35877922), vec4(0.06289728, -0.1580284, 0.07473804, 0.13326874), vec4(7.0914807, 5.603903, 0.58649045, -2.2741826)),

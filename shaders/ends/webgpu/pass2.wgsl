@@ -5,7 +5,7 @@
 //
 // Neural moment transparency: network 'ends', 9-32-16-1, 816 multiply-adds.
 // Provenance: nmt 0.1.0, commit a11f08561d89, backend fused, seed 1, epochs 1500, dataset 381d5ef98678649c941c2c4c7bd79249c8745cf2398e785a10c209e31313e407.
-// Measured error: none recorded; 'nmt predict' measures it on fragment lists.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.982e-3, worst 1.000.
 
 const NMT_W1 = array<mat4x4<f32>, 24>(
     mat4x4<f32>(vec4<f32>(1.4317298f, 2.191651f, 6.727079f, -3.751045f), vec4<f32>(-0.060478445f, 0.11461254f, -0.1646913f, -0.35877922f), vec4<f32>(0.06289728f, -0.1580284f, 0.07473804f, 0.13326874f), vec4<f32>(7.0914807f, 5.603903f, 0.58649045f, -2.2741826f)),
