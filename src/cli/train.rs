@@ -11,7 +11,7 @@ use crate::features::MomentDepthKind;
 use crate::model::{Mlp, Provenance, file};
 use crate::numeric::file::{FileError, Lock, Replace, may_write, write_atomically};
 use crate::numeric::tolerance::AbsoluteError;
-use crate::oit::{Context as Scene, neural::Neural};
+use crate::oit::{self, neural::Neural};
 use crate::synth::{Purpose, Synth};
 use crate::train::checkpoint::{Losses, lock_path_for, path_for};
 use crate::train::trainer::Job;
@@ -216,9 +216,9 @@ impl Trained {
         let camera = config.synth.camera;
         let set = self.mlp.feature_set();
         let depth_range = (set.moment_depth() == MomentDepthKind::Log).then(|| (camera.near(), camera.far()));
-        let context = Scene {
-            planes: None,
+        let context = oit::Context {
             depth_range,
+            ..oit::Context::default()
         };
         let answers = Neural::new(self.mlp.clone()).transmittance(&list, context, &|_| {})?;
         let error = transmittance_error(&answers, &set.target().of_list(&list));

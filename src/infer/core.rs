@@ -15,7 +15,7 @@ use crate::features::core::formulas::{allowed, share_by_law, transmittance};
 use crate::features::core::pixel::{Between, Query, Sums, with_sums};
 use crate::features::core::{CoreSet, FIXED};
 use crate::numeric::Real;
-use crate::numeric::lanes::{LANES, Lanes};
+use crate::numeric::lanes::{self, LANES, Lanes};
 use crate::pixel::{FragmentList, absorbance_lanes};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x16, mask32x16};
@@ -255,7 +255,7 @@ impl Workspace<'_> {
             let core_absorbance = f32x16::splat(simd, self.coded.absorbance[i]);
             front += Select::select(core_z.simd_lt(z), core_absorbance, zero);
         }
-        store(transmittance(front, zero, zero), own.clone(), out);
+        store(transmittance(front, zero, zero).into(), &own, out);
         self.store_classes([0, 0], own, classes);
     }
 
@@ -297,7 +297,6 @@ impl Workspace<'_> {
                             }
                         }
                         if unknown != 0 {
-                            self.tally.rows += u64::from(unknown.count_ones());
                             self.waiting
                                 .get_or_insert_with(|| Waiting::new(network, FIXED + N - 1))
                                 .push(simd, query, unknown, some.clone());
@@ -305,7 +304,7 @@ impl Workspace<'_> {
                     }
                 }
             }
-            store(t, some.clone(), out);
+            store(t.into(), &some, out);
             self.store_classes([unknown, faint], some, classes);
             if let Some(waiting) = &mut self.waiting
                 && waiting.is_full()
@@ -316,8 +315,7 @@ impl Workspace<'_> {
     }
 
     /// Writes down and counts what decided some fragments of a vector: the network for those whose bits are set, bounds
-    /// that leave next to nothing open, and else what is known. Fragments behind them get something too, where there
-    /// are any, which is written over.
+    /// that leave next to nothing open, and else what is known.
     #[inline(always)]
     fn store_classes(&mut self, [network, faint]: [u64; 2], fragments: Range<usize>, classes: &mut [Class]) {
         let of = |lane: usize| match (network >> lane & 1, faint >> lane & 1) {
@@ -325,34 +323,22 @@ impl Workspace<'_> {
             (0, _) => Class::Faint,
             _ => Class::Network,
         };
-        match classes[fragments.start..].first_chunk_mut::<LANES>() {
-            Some(classes) => {
-                for (lane, class) in classes.iter_mut().enumerate() {
-                    *class = of(lane);
-                }
-            }
-            None => {
-                for (lane, class) in classes[fragments.clone()].iter_mut().enumerate() {
-                    *class = of(lane);
-                }
-            }
-        }
+        store(lanes::array(of), &fragments, classes);
         let [network, faint] = [network, faint].map(|lanes| u64::from(lanes.count_ones()));
+        self.tally.rows += network;
         self.tally.classes[Class::Network as usize] += network;
         self.tally.classes[Class::Faint as usize] += faint;
         self.tally.classes[Class::Known as usize] += fragments.len() as u64 - network - faint;
     }
 }
 
-/// Writes the answers to some fragments of a vector. Fragments behind them get something too, where there are any,
+/// Writes what there is of some fragments of a vector. Fragments behind them get something too, where there are any,
 /// which is written over: pixels are gone through in order, and those that wait for the network lie in front.
 #[inline(always)]
-fn store<S: Simd>(t: f32x16<S>, fragments: Range<usize>, out: &mut [f32]) {
-    let mut lanes = Lanes::ZERO;
-    lanes.store(t);
-    match out[fragments.start..].first_chunk_mut::<LANES>() {
-        Some(out) => *out = lanes.0,
-        None => out[fragments.clone()].copy_from_slice(&lanes.0[..fragments.len()]),
+fn store<T: Copy>(of_lanes: [T; LANES], fragments: &Range<usize>, out: &mut [T]) {
+    match out[fragments.start..].first_chunk_mut() {
+        Some(out) => *out = of_lanes,
+        None => out[fragments.clone()].copy_from_slice(&of_lanes[..fragments.len()]),
     }
 }
 
