@@ -294,10 +294,14 @@ def bounds(x, m):
     m = [moment * (1 - BOUNDS_BIAS) + at * BOUNDS_BIAS for moment, at in zip(m, uniform)]
     variance = np.maximum(m[2] - m[1] ** 2, 1e-7)
     y = (x - m[1]) / np.sqrt(variance)
+    free = np.maximum(1 - x**2, 1e-6)
     if len(m) < 5:
         most = 1 / (1 + y**2)
         lower = np.where(y < 0, 0, 1 - most)
-        return [lower, lower + most]
+        # The measure of both ends and x.
+        ended = (1 - m[2]) / free
+        lower = np.where(ended < most, (1 - m[1] - ended * (1 - x)) / 2, lower)
+        return [lower, lower + np.minimum(most, ended)]
     skewness = (m[3] - 3 * m[1] * m[2] + 2 * m[1] ** 3) / variance**1.5
     fourth = (m[4] - 4 * m[1] * m[3] + 6 * m[1] ** 2 * m[2] - 3 * m[1] ** 4) / variance**2
     g = np.clip(skewness, -30, 30)
@@ -309,7 +313,17 @@ def bounds(x, m):
     root = np.sqrt(np.maximum(linear**2 - 4 * q * (1 - q), 1e-12))
     between = np.clip((1 - most) / 2 * (1 + linear / root) - most * y * q / root, 0, 1 - most)
     lower = np.where(q < 0, between, np.where(y > g / 2, 1 - most, 0))
-    return [lower, lower + most]
+    # The measure of both ends, x and a fourth point: the bound of two moments of (1 - t^2) times the measure.
+    inner = np.maximum(1 - m[2], 1e-6)
+    mean, second = (m[1] - m[3]) / inner, (m[2] - m[4]) / inner
+    width = np.maximum(second - mean**2, 1e-7)
+    share = width / (width + (mean - x) ** 2)
+    ended = inner * share / free
+    side = np.where(mean < x, -1, 1)
+    of_fourth = inner * (1 - share) * np.abs(mean - x) / np.maximum(np.abs(mean - x) + second - x * mean, 1e-6)
+    at_end = np.clip((1 - side * m[1] - ended * (1 - side * x) - of_fourth) / 2, 0, np.maximum(1 - ended, 0))
+    lower = np.where(ended < most, np.where(side < 0, 1 - ended - at_end, at_end), lower)
+    return [lower, lower + np.minimum(most, ended)]
 
 
 DEPTH_STEPS = 1 << 16  # of a core's codes

@@ -26,8 +26,8 @@ use std::time::Instant;
 /// Pixels of one task.
 const TASK: usize = 256;
 
-/// Greatest error of T, whatever share of the tail its moments allow, at which the middle of what they allow stands for
-/// the network's answer: half a display step.
+/// Greatest error of a T, a its opacity and T what the moments allow, at which the middle of that stands for the
+/// network's answer: half a display step.
 pub const VISIBLE: f32 = 1.0 / 512.0;
 
 /// Who shares tails out.
@@ -288,7 +288,8 @@ impl Workspace<'_> {
                             let [_, _, _, lower, upper] = query.fixed;
                             let noise = between.bounds_noise(query);
                             let [most, least] = allowed(query.front, query.tail, [lower, upper], noise);
-                            let is_faint = (most - least).simd_le(f32x16::splat(simd, 2.0 * VISIBLE));
+                            let opacity = f32x16::splat(simd, 1.0) - transmittance(absorbance, zero, zero);
+                            let is_faint = (opacity * (most - least)).simd_le(f32x16::splat(simd, 2.0 * VISIBLE));
                             faint = unknown & is_faint.to_bitmask();
                             if faint != 0 {
                                 let middle = (most + least) * f32x16::splat(simd, 0.5);

@@ -145,7 +145,7 @@ struct Query<R: Real, const N: usize> {
 impl<R: Real, const N: usize> Query<R, N> {
     /// What a network is asked, in the order of the feature set's columns.
     fn features(&self) -> Vec<R> {
-        self.row(bounds(self.x, self.m), described(self.m))
+        self.row(bounds(self.x, self.m).share, described(self.m))
     }
 
     /// The same from the bounds and the description of the tail.
@@ -263,8 +263,9 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     parameters.extend([("n", Type::Real), ("b0", Type::Real), ("moments", Type::Vec4)]);
     let source = Source::new(dialect(language), "nmt_core");
     if let Tail::Network { open } = tail {
-        let about = "Where the moments of the tail leave T open by no more than this, it is the middle of what they \
-                     allow, and the network is not asked. 0 always asks it; 1/256 cannot be seen.";
+        let about = "Where the moments of the tail leave what the fragment adds to the image open by no more than \
+                     this, T is the middle of what they allow, and the network is not asked. 0 always asks it; 1/256 \
+                     cannot be seen.";
         source.constant(OPEN_SWITCH, about, open);
     }
     source.begin_function(
@@ -289,7 +290,7 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     let (n, bits) = (source.real("n"), set.layout.depth_bits);
     match tail {
         Tail::Law => source.return_value(weigh_by_law(own, &core, n, b, bits)),
-        Tail::Network { .. } => ask_network(&source, query(own, &core, n, b, bits)),
+        Tail::Network { .. } => ask_network(&source, own, query(own, &core, n, b, bits)),
     }
     source.into_text()
 }
@@ -298,23 +299,24 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
 pub const OPEN_SWITCH: &str = "NMT_OPEN";
 
 /// Ends a function: exact rules, and the exported network where there are none. It answers with e^−(tail in front).
-fn ask_network<'s, const N: usize>(source: &'s Source, q: Query<Expression<'s>, N>) {
+fn ask_network<'s, const N: usize>(source: &'s Source, own: Entry<Expression<'s>>, q: Query<Expression<'s>, N>) {
     source.begin_if(q.is_exact);
     transmittance(q.front, q.tail, q.exact).named("known");
     source.statement("return known;");
     source.end_if();
-    let (bounds, described) = (bounds(q.x, q.m), described(q.m));
+    let bounds = bounds(q.x, q.m);
     let open = source.real(OPEN_SWITCH);
     source.begin_if(open.gt(c(0.0)));
-    let noise = bounds_noise::<_, N>(q.total, q.tail, q.range, [described[1], described[2.min(N - 1)]]);
-    let [most, least] = allowed(q.front, q.tail, bounds, noise.named("bounds_noise"));
+    let noise = bounds_noise::<_, N>(q.total, q.tail, q.range, bounds.gain).named("bounds_noise");
+    let [most, least] = allowed(q.front, q.tail, bounds.share, noise);
     let (most, least) = (most.named("most"), least.named("least"));
-    source.begin_if((most - least).le(open));
+    let opacity = (c(1.0) - (-own.absorbance).exp()).named("opacity");
+    source.begin_if((opacity * (most - least)).le(open));
     (c(0.5) * (most + least)).named("middle");
     source.statement("return middle;");
     source.end_if();
     source.end_if();
-    let row = source.numbers(&q.row(bounds, described));
+    let row = source.numbers(&q.row(bounds.share, described(q.m)));
     let answer = source.call(ENTRY, &[row]);
     source.return_value((-q.front).exp() * answer);
 }

@@ -75,6 +75,8 @@ pub struct Query<const N: usize, R = f32> {
     pub tail: R,
     /// x, count, ln_b0, lower, upper.
     pub fixed: [R; FIXED],
+    /// By how much more the bounds err than the moments that they come from.
+    pub gain: R,
     /// 1, then means and spreads.
     pub described: [R; N],
 }
@@ -185,6 +187,7 @@ impl<const N: usize> Between<N> {
                     front,
                     tail: zero,
                     fixed: [zero; FIXED],
+                    gain: zero,
                     described: [zero; N],
                 },
             };
@@ -209,6 +212,7 @@ impl<const N: usize> Between<N> {
             }
         }
         share = R::select(is_farthest, one, share);
+        let bounds = bounds(x, m);
         share = R::select(is_nearest | count.lt(c(0.5)), zero, share);
         Answers {
             is_known,
@@ -216,19 +220,20 @@ impl<const N: usize> Between<N> {
             query: Query {
                 front,
                 tail: absorbance,
-                fixed: fixed_features(x, count, absorbance, bounds(x, m)),
+                fixed: fixed_features(x, count, absorbance, bounds.share),
+                gain: bounds.gain,
                 described: described(m),
             },
         }
     }
 
-    /// How far rounding of the sums may have moved the bounds of a fragment's tail.
+    /// How far rounding of the sums has moved the bounds of a fragment's tail; see
+    /// [`formulas::bounds_noise`](super::formulas::bounds_noise).
     #[inline(always)]
     pub fn bounds_noise<R: Real>(&self, query: &Query<N, R>) -> R {
         let number = |value: f32| query.tail.like(value.into());
         let range = [number(self.center), number(self.per_h)];
-        let described = [query.described[1], query.described[2.min(N - 1)]];
-        bounds_noise::<R, N>(number(self.total), query.tail, range, described)
+        bounds_noise::<R, N>(number(self.total), query.tail, range, query.gain)
     }
 }
 
@@ -432,6 +437,7 @@ mod tests {
                         tail,
                         fixed: [x, count, ln_b0, lower, upper],
                         described,
+                        ..
                     }) => {
                         assert!(front >= 0.0 && tail >= 0.0 && front.is_finite() && tail.is_finite());
                         assert!((-1.0..=1.0).contains(&x) && (-1.0..2.0).contains(&count), "{x} {count}");
