@@ -35,8 +35,8 @@
 // behind the farthest: all of the tail lies in front; a tail of one fragment, and of two where M >= 3: closed
 // forms.
 //
-// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
-// Measured on fresh pixels of the training distribution: mean squared error of T 2.550e-3, worst 1.000.
+// Provenance: nmt 0.1.0, commit a848199e5c6e, backend fused, seed 1, epochs 1500, dataset 4cb0c11bc9538ca61a2ffd6e935d976f36720f667fe3b7ae3813684c758f300e.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.533e-3, worst 1.000.
 
 #ifndef NMT_INCLUDED_CORE_SMALL
 #define NMT_INCLUDED_CORE_SMALL
@@ -47,34 +47,34 @@ float3x4 nmt_features(float x, float count, float ln_b0, float lower, float uppe
 }
 
 static const float4x4 NMT_W1[12] = {
-    float4x4(float4(4.633581f, 1.5577128f, 4.847308f, -7.9550843f), float4(-0.040778674f, 0.30109483f, 0.18810418f, 0.08001085f), float4(0.1270906f, -0.113899805f, -0.09940042f, 0.06291714f), float4(-5.239348f, 4.4244847f, 11.981173f, -5.647331f)),
-    float4x4(float4(-6.316239f, 7.0866685f, 0.7747114f, -6.249695f), float4(-2.8813026f, 1.3543744f, -2.5794756f, -3.425034f), float4(-0.14739996f, 2.974767f, 1.035014f, -0.48165968f), float4(-0.58785886f, 0.50425225f, 0.19695403f, -0.901528f)),
-    float4x4(float4(0.21754104f, -2.6533523f, 0.27809235f, 0.23363206f), float4(7.509731f, 0.018536674f, 5.0530396f, -3.8738046f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
-    float4x4(float4(-3.1414006f, 4.4425554f, -0.89057094f, -1.1077212f), float4(-0.059489608f, -0.20166463f, -0.23307152f, -0.11338352f), float4(0.05209868f, 0.059970256f, 0.18867385f, 0.09877608f), float4(26.519499f, 20.081259f, -4.729799f, -1.1468024f)),
-    float4x4(float4(-21.093914f, -0.65355283f, -12.0057335f, 5.4057674f), float4(5.5124702f, -0.11932348f, -2.0397336f, -3.026001f), float4(-7.544677f, -1.4594955f, 0.9759642f, -4.3099356f), float4(-4.8257446f, -1.2188243f, 4.2050624f, 4.96347f)),
-    float4x4(float4(0.29272616f, 5.196453f, 1.3102355f, 0.27936175f), float4(-0.21944292f, 2.4984572f, 1.7173952f, 1.3231782f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
-    float4x4(float4(-1.8677667f, -0.47189677f, 3.3769467f, 2.4587243f), float4(-0.22109956f, 0.060226426f, 0.052055903f, 0.11305356f), float4(0.05001351f, 0.039633315f, -0.020085853f, -0.10174877f), float4(-1.739131f, 5.6659603f, 12.399412f, -3.9291306f)),
-    float4x4(float4(-23.451077f, 3.901157f, -12.326258f, -16.445658f), float4(-2.008173f, -3.4493191f, -4.080363f, -9.312441f), float4(-1.5544633f, -5.9060125f, -1.8305857f, -1.870911f), float4(1.8193483f, 8.248149f, 1.6809378f, 8.031535f)),
-    float4x4(float4(4.5426483f, 6.092583f, 10.385813f, 5.0848346f), float4(0.7915796f, -2.201602f, -0.02491766f, 1.6812139f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
-    float4x4(float4(-6.600309f, 0.123911336f, 0.0f, 0.0f), float4(-0.1909336f, 0.3993747f, 0.0f, 0.0f), float4(0.13846499f, -0.076549605f, 0.0f, 0.0f), float4(9.1780405f, -24.788761f, 0.0f, 0.0f)),
-    float4x4(float4(-1.6179283f, 4.5265007f, 0.0f, 0.0f), float4(-1.2897608f, 3.906312f, 0.0f, 0.0f), float4(1.3081037f, 3.0357022f, 0.0f, 0.0f), float4(0.94770765f, -3.043183f, 0.0f, 0.0f)),
-    float4x4(float4(-0.08552459f, -9.461983f, 0.0f, 0.0f), float4(-6.4232793f, 1.3108759f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f))
+    float4x4(float4(4.8778276f, -0.7319692f, 3.6530824f, -1.6481752f), float4(-0.24516319f, -0.27494642f, -0.023510791f, 0.11400228f), float4(0.228575f, 0.25520048f, 0.13499178f, -0.10372328f), float4(-0.5467422f, 2.6183908f, 8.650195f, -1.3826258f)),
+    float4x4(float4(-5.8551807f, -1.0576799f, 2.7924774f, -8.082505f), float4(-2.5652757f, 2.1842368f, -0.101185136f, 0.8496825f), float4(0.11754783f, 1.1701148f, 0.4261731f, 1.0241573f), float4(-0.5958086f, 0.81029135f, -0.8975072f, -1.8926371f)),
+    float4x4(float4(1.3035642f, -0.14273503f, -0.14144559f, 2.2584605f), float4(5.9671373f, 1.4847919f, 3.1871316f, 1.8420736f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-3.098758f, 2.3643606f, 1.9390315f, -0.025061242f), float4(0.013713428f, 0.24798474f, -0.17473f, 0.1092438f), float4(-0.016801622f, -0.1513876f, 0.054045714f, -0.00874805f), float4(14.739972f, -164.7957f, 7.3871503f, -26.957058f)),
+    float4x4(float4(-8.423298f, -16.265095f, -6.763347f, -3.6461272f), float4(5.1973667f, -6.2610235f, -5.804388f, -0.79259384f), float4(-5.0187683f, -2.1178577f, -0.1445185f, -0.47444504f), float4(-5.852785f, 4.4160266f, 4.6112943f, -0.07370595f)),
+    float4x4(float4(0.495891f, 6.758663f, -0.74108994f, -2.9599438f), float4(-0.9314051f, 1.3079683f, 2.440642f, 4.655624f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-7.4299335f, -0.2297995f, -3.6704452f, 3.7584605f), float4(-0.10068613f, 0.116125256f, -0.20114587f, 0.06323509f), float4(0.11217993f, -0.048117194f, 0.16280521f, 0.034884017f), float4(1.0506787f, 10.068197f, 13.049514f, -17.764614f)),
+    float4x4(float4(-1.1598299f, 6.9126554f, -11.887382f, -10.6937065f), float4(-0.5063457f, 1.4594547f, 2.707645f, -0.41473576f), float4(0.3520074f, -0.93157744f, -5.942758f, 7.43136f), float4(0.032555133f, -0.83957905f, 0.4354543f, -3.0254202f)),
+    float4x4(float4(-0.03307929f, 0.2872462f, 0.307582f, -20.961397f), float4(-6.8072767f, -1.608604f, -0.09493034f, 3.3601375f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-3.1927843f, -0.7596912f, 0.0f, 0.0f), float4(-0.16797958f, -0.28360534f, 0.0f, 0.0f), float4(0.097345725f, 0.1268056f, 0.0f, 0.0f), float4(1.7302861f, 0.53903437f, 0.0f, 0.0f)),
+    float4x4(float4(0.5574605f, -7.9472857f, 0.0f, 0.0f), float4(-2.2368462f, 6.9823356f, 0.0f, 0.0f), float4(-3.3104074f, -10.6633005f, 0.0f, 0.0f), float4(4.8967834f, -6.983885f, 0.0f, 0.0f)),
+    float4x4(float4(5.501963f, 0.5043578f, 0.0f, 0.0f), float4(-4.593644f, 1.2066915f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f), float4(0.0f, 0.0f, 0.0f, 0.0f))
 };
 static const float4x4 NMT_W2[8] = {
-    float4x4(float4(1.1419989f, -1.4198644f, -0.19373854f, 0.56172514f), float4(-0.75568086f, -1.1981204f, -0.7734579f, 0.29221427f), float4(0.072205335f, 2.5015967f, -0.56138813f, -0.7423831f), float4(-0.34978172f, 1.01927f, -0.19402012f, 1.2962704f)),
-    float4x4(float4(-1.8820454f, -0.9988709f, -1.0608377f, 3.7136261f), float4(-0.9074444f, 0.100530505f, -3.6432486f, 0.9728528f), float4(-0.07494871f, 0.06845625f, 0.4569547f, 1.2108296f), float4(-0.007983513f, -1.39181f, 2.5139186f, -0.68514496f)),
-    float4x4(float4(1.1394446f, -1.2730776f, -0.46546707f, -0.12843531f), float4(-0.5475997f, -0.3343885f, -3.3071005f, 0.58014804f), float4(-1.662909f, -1.1193928f, 3.9590952f, -0.9652814f), float4(-3.4225204f, 2.9797518f, -0.11754079f, 0.023971306f)),
-    float4x4(float4(3.0399487f, 1.6670663f, -3.1889777f, 2.7175567f), float4(0.0562945f, 1.1437154f, -3.8556113f, 0.5253217f), float4(2.817947f, 0.85403734f, 0.7493489f, 2.9479167f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
-    float4x4(float4(0.4565463f, 0.46166718f, -7.863282f, 0.4971716f), float4(2.2395608f, -3.3886964f, 0.4029314f, -4.3679767f), float4(-3.5426292f, 2.6224256f, -2.0955248f, -1.2515348f), float4(-2.0730424f, 0.21992649f, 7.2669735f, -0.28032577f)),
-    float4x4(float4(0.2647249f, 2.2715585f, 0.21832715f, -1.41066f), float4(2.2557268f, 0.09026979f, 0.015854748f, 3.7563598f), float4(0.4581541f, -1.9481311f, -0.054118f, -0.3657199f), float4(0.9714568f, -2.4021637f, -0.17931756f, 0.7629885f)),
-    float4x4(float4(-1.542965f, 2.8256016f, 0.18076795f, 3.3432143f), float4(0.50801617f, 1.5908597f, 0.3709236f, -3.6185648f), float4(-0.8337836f, -1.631481f, -0.13030158f, -6.766812f), float4(-3.4649694f, -0.792588f, -0.10180443f, -0.32464153f)),
-    float4x4(float4(2.7873704f, 0.40408432f, 2.34775f, -1.3204027f), float4(-0.7127589f, 1.8839266f, -0.15561827f, 3.494888f), float4(-1.5662805f, -7.3176303f, -4.491624f, -4.135471f), float4(0.0f, 0.0f, 0.0f, 0.0f))
+    float4x4(float4(1.7685847f, -1.2965266f, 0.53486013f, -0.29221267f), float4(0.5022446f, -0.57678044f, 2.8619845f, 1.1610198f), float4(-1.510298f, 1.0492433f, -2.4719512f, 0.69602823f), float4(0.4245065f, -0.021788223f, -2.2097266f, 0.45277822f)),
+    float4x4(float4(-1.9844544f, -4.284621f, -2.0162687f, 0.80677956f), float4(-0.08269256f, 0.83371484f, 1.4538207f, -0.3430089f), float4(0.33549848f, 1.315723f, -2.6486657f, -0.9424922f), float4(0.6682035f, 0.7352949f, 0.77444446f, 1.5549136f)),
+    float4x4(float4(-3.7106292f, 1.4094218f, -3.0866914f, 6.321356f), float4(2.9056916f, -1.6683085f, 2.5197487f, -0.12306516f), float4(1.8786901f, 2.9980502f, 0.53554356f, 0.6986177f), float4(-1.4987996f, 0.16394545f, -11.833226f, -0.9698973f)),
+    float4x4(float4(0.105152994f, -2.629642f, -0.26539943f, 0.97390944f), float4(0.20291848f, -4.665007f, -3.2223794f, -1.1747206f), float4(-3.0591586f, 2.422517f, -0.3822718f, -1.1229484f), float4(0.0f, 0.0f, 0.0f, 0.0f)),
+    float4x4(float4(-2.5065336f, 1.2751687f, -3.1727622f, 2.6094267f), float4(-0.34650132f, -0.58315194f, -2.036526f, -0.97464854f), float4(3.4674072f, 1.1141264f, -2.0562246f, -1.5358669f), float4(-0.8401374f, 1.7635139f, 0.88128996f, 1.1690073f)),
+    float4x4(float4(0.62812424f, -0.6253937f, 0.07006818f, -0.3447436f), float4(4.757243f, 4.1627517f, -0.32235038f, 1.8340607f), float4(0.95672405f, -0.06239507f, -0.2886359f, -0.745714f), float4(-2.170308f, -2.8018155f, 0.12480712f, -2.8756857f)),
+    float4x4(float4(-0.46313936f, -0.42326838f, 13.634587f, -0.8679801f), float4(-3.8175569f, 0.6408508f, 0.8411556f, 1.3615565f), float4(0.9755631f, 0.9696179f, 0.1144694f, 1.0314378f), float4(1.4169557f, -0.5175313f, -0.8745645f, -0.68139124f)),
+    float4x4(float4(-0.31971556f, 0.8106935f, 0.48868963f, -0.17111878f), float4(0.9139772f, -0.97476697f, -7.719652f, -1.006329f), float4(4.2278967f, -1.388446f, -2.153287f, 4.008335f), float4(0.0f, 0.0f, 0.0f, 0.0f))
 };
 static const float4 NMT_W3[2] = {
-    float4(-0.24083899f, 0.15409076f, 0.13565949f, -0.2946874f),
-    float4(0.1629475f, 0.3656696f, -1.2356493f, -0.1714698f)
+    float4(-0.2411506f, 0.1824429f, 0.16963111f, -0.3715353f),
+    float4(-0.2563782f, 0.3967364f, -1.0420152f, -0.3345766f)
 };
-static const float NMT_B3 = -0.33463305f;
+static const float NMT_B3 = 0.17377278f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
 float nmt_share(float3x4 f) {
@@ -266,31 +266,47 @@ void nmt_core_insert(uint pixel, uint2 steps, NmtCodes codes) {
     }
 }
 
-// Where the moments of the tail leave T open by no more than this, it is the middle of what they allow, and the network
-// is not asked. 0 always asks it; 1/256 cannot be seen.
+// Where the moments of the tail leave what the fragment adds to the image open by no more than this, T is the middle of
+// what they allow, and the network is not asked. 0 always asks it; 1/512 cannot be seen.
 static const float NMT_OPEN = 0.0;
 
-// Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
-float2 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
+// Least and greatest share of the tail that may lie in front of x, from its moments, and by how much more they err than
+// these: Markov's bounds.
+float3 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
     float mean = m1 * 0.9999;
     float second = m2 * 0.9999 + 3.3333334e-5;
     float third = m3 * 0.9999;
+    float fourth = m4 * 0.9999 + 2e-5;
     float square = mean * mean;
     float variance = max(second - square, 1e-7);
     float per_deviation = 1.0 / sqrt(variance);
     float per_variance = per_deviation * per_deviation;
     float skewness = clamp((third - mean * (3.0 * second - 2.0 * square)) * per_variance * per_deviation, -30.0, 30.0);
-    float d = clamp((m4 * 0.9999 + 2e-5 - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square)))
-        * per_variance * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
+    float d = clamp((fourth - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square))) * per_variance
+        * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
     float y = (x - mean) * per_deviation;
-    float q = (y * (y - skewness) - 1.0) / d;
+    float per_d = 1.0 / d;
+    float q = (y * (y - skewness) - 1.0) * per_d;
     float at = 1.0 / (1.0 + y * y + q * q * d);
     float rest = 1.0 - at;
     float linear_ = y - q * skewness;
     float per_root = 1.0 / sqrt(max(linear_ * linear_ - 4.0 * q * (1.0 - q), 1e-12));
     float between = clamp(0.5 * rest * (1.0 + linear_ * per_root) - at * y * q * per_root, 0.0, rest);
     float lower = (q < 0.0 ? between : (y > 0.5 * skewness ? rest : 0.0));
-    return float2(lower, lower + at);
+    float inner = max(1.0 - second, 1e-6);
+    float per_inner = 1.0 / inner;
+    float inner_mean = (mean - third) * per_inner;
+    float inner_second = (second - fourth) * per_inner;
+    float width = max(inner_second - inner_mean * inner_mean, 1e-7);
+    float place = inner_mean - x;
+    float of_inner = width / (width + place * place);
+    float ended = inner * of_inner / max(1.0 - x * x, 1e-6);
+    float side = (place < 0.0 ? -1.0 : 1.0);
+    float of_fourth = inner * (1.0 - of_inner) * abs(place) / max(abs(place) + inner_second - x * inner_mean, 1e-6);
+    float at_end = clamp(0.5 * (1.0 - side * mean - ended * (1.0 - side * x) - of_fourth), 0.0, max(1.0 - ended, 0.0));
+    float least = (ended < at ? (place < 0.0 ? 1.0 - ended - at_end : at_end) : lower);
+    float most = (ended < at ? ended : at);
+    return float3(least, least + most, per_variance * per_variance * per_d);
 }
 
 // Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), from the
@@ -373,22 +389,21 @@ float nmt_core_weigh(float z, float absorbance, float4 depths0, float4 absorbanc
         float known = min(exp(-(front_4 + absorbance_of_tail * exact_4)), 1.0);
         return known;
     }
-    float2 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
-    float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
-    float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
+    float3 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     if (NMT_OPEN > 0.0) {
-        float bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * ((1.0 + abs(center)) * per_h + 1.0)
-            * 4.7683716e-7 * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0
-            + abs(center)) * per_h + 1.0) / (max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
-            * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7) * max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
-            * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7));
+        float bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0
+            + abs(center)) * per_h + 1.0) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0)))
+            * bounds.z * 1.4901161e-8;
         float most = min(exp(-(front_4 + absorbance_of_tail * max(bounds.x - bounds_noise, 0.0))), 1.0);
         float least = min(exp(-(front_4 + absorbance_of_tail * min(bounds.y + bounds_noise, 1.0))), 1.0);
-        if (most - least <= NMT_OPEN) {
+        float opacity = 1.0 - exp(-absorbance);
+        if (opacity * (most - least) <= NMT_OPEN) {
             float middle = 0.5 * (most + least);
             return middle;
         }
     }
+    float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
+    float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
     return exp(-front_4) * nmt_transmittance(float3x4(float4(x, log2(others) * 0.33333334 - 1.0,
         log(absorbance_of_tail + 0.05), bounds.x), float4(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
         * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0), mean_2), float4(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2,

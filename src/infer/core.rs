@@ -26,9 +26,10 @@ use std::time::Instant;
 /// Pixels of one task.
 const TASK: usize = 256;
 
-/// Greatest error of a T, a its opacity and T what the moments allow, at which the middle of that stands for the
-/// network's answer: half a display step.
-pub const VISIBLE: f32 = 1.0 / 512.0;
+/// Greatest error of what a fragment adds to the image, whatever share of the tail its moments allow, at which the
+/// middle of what they allow stands for the network's answer: a quarter of a display step, so that several of a pixel
+/// hardly add up to half a step.
+pub const VISIBLE: f32 = 1.0 / 1024.0;
 
 /// Who shares tails out.
 #[derive(Clone, Copy)]

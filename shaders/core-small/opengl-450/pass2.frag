@@ -5,38 +5,38 @@
 // pass 1. Storage buffer at binding 0: that of pass 1.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
-// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
-// Measured on fresh pixels of the training distribution: mean squared error of T 2.550e-3, worst 1.000.
+// Provenance: nmt 0.1.0, commit a848199e5c6e, backend fused, seed 1, epochs 1500, dataset 4cb0c11bc9538ca61a2ffd6e935d976f36720f667fe3b7ae3813684c758f300e.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.533e-3, worst 1.000.
 
 const mat4 NMT_W1[12] = mat4[12](
-    mat4(vec4(4.633581, 1.5577128, 4.847308, -7.9550843), vec4(-0.040778674, 0.30109483, 0.18810418, 0.08001085), vec4(0.1270906, -0.113899805, -0.09940042, 0.06291714), vec4(-5.239348, 4.4244847, 11.981173, -5.647331)),
-    mat4(vec4(-6.316239, 7.0866685, 0.7747114, -6.249695), vec4(-2.8813026, 1.3543744, -2.5794756, -3.425034), vec4(-0.14739996, 2.974767, 1.035014, -0.48165968), vec4(-0.58785886, 0.50425225, 0.19695403, -0.901528)),
-    mat4(vec4(0.21754104, -2.6533523, 0.27809235, 0.23363206), vec4(7.509731, 0.018536674, 5.0530396, -3.8738046), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
-    mat4(vec4(-3.1414006, 4.4425554, -0.89057094, -1.1077212), vec4(-0.059489608, -0.20166463, -0.23307152, -0.11338352), vec4(0.05209868, 0.059970256, 0.18867385, 0.09877608), vec4(26.519499, 20.081259, -4.729799, -1.1468024)),
-    mat4(vec4(-21.093914, -0.65355283, -12.0057335, 5.4057674), vec4(5.5124702, -0.11932348, -2.0397336, -3.026001), vec4(-7.544677, -1.4594955, 0.9759642, -4.3099356), vec4(-4.8257446, -1.2188243, 4.2050624, 4.96347)),
-    mat4(vec4(0.29272616, 5.196453, 1.3102355, 0.27936175), vec4(-0.21944292, 2.4984572, 1.7173952, 1.3231782), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
-    mat4(vec4(-1.8677667, -0.47189677, 3.3769467, 2.4587243), vec4(-0.22109956, 0.060226426, 0.052055903, 0.11305356), vec4(0.05001351, 0.039633315, -0.020085853, -0.10174877), vec4(-1.739131, 5.6659603, 12.399412, -3.9291306)),
-    mat4(vec4(-23.451077, 3.901157, -12.326258, -16.445658), vec4(-2.008173, -3.4493191, -4.080363, -9.312441), vec4(-1.5544633, -5.9060125, -1.8305857, -1.870911), vec4(1.8193483, 8.248149, 1.6809378, 8.031535)),
-    mat4(vec4(4.5426483, 6.092583, 10.385813, 5.0848346), vec4(0.7915796, -2.201602, -0.02491766, 1.6812139), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
-    mat4(vec4(-6.600309, 0.123911336, 0.0, 0.0), vec4(-0.1909336, 0.3993747, 0.0, 0.0), vec4(0.13846499, -0.076549605, 0.0, 0.0), vec4(9.1780405, -24.788761, 0.0, 0.0)),
-    mat4(vec4(-1.6179283, 4.5265007, 0.0, 0.0), vec4(-1.2897608, 3.906312, 0.0, 0.0), vec4(1.3081037, 3.0357022, 0.0, 0.0), vec4(0.94770765, -3.043183, 0.0, 0.0)),
-    mat4(vec4(-0.08552459, -9.461983, 0.0, 0.0), vec4(-6.4232793, 1.3108759, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0))
+    mat4(vec4(4.8778276, -0.7319692, 3.6530824, -1.6481752), vec4(-0.24516319, -0.27494642, -0.023510791, 0.11400228), vec4(0.228575, 0.25520048, 0.13499178, -0.10372328), vec4(-0.5467422, 2.6183908, 8.650195, -1.3826258)),
+    mat4(vec4(-5.8551807, -1.0576799, 2.7924774, -8.082505), vec4(-2.5652757, 2.1842368, -0.101185136, 0.8496825), vec4(0.11754783, 1.1701148, 0.4261731, 1.0241573), vec4(-0.5958086, 0.81029135, -0.8975072, -1.8926371)),
+    mat4(vec4(1.3035642, -0.14273503, -0.14144559, 2.2584605), vec4(5.9671373, 1.4847919, 3.1871316, 1.8420736), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-3.098758, 2.3643606, 1.9390315, -0.025061242), vec4(0.013713428, 0.24798474, -0.17473, 0.1092438), vec4(-0.016801622, -0.1513876, 0.054045714, -0.00874805), vec4(14.739972, -164.7957, 7.3871503, -26.957058)),
+    mat4(vec4(-8.423298, -16.265095, -6.763347, -3.6461272), vec4(5.1973667, -6.2610235, -5.804388, -0.79259384), vec4(-5.0187683, -2.1178577, -0.1445185, -0.47444504), vec4(-5.852785, 4.4160266, 4.6112943, -0.07370595)),
+    mat4(vec4(0.495891, 6.758663, -0.74108994, -2.9599438), vec4(-0.9314051, 1.3079683, 2.440642, 4.655624), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-7.4299335, -0.2297995, -3.6704452, 3.7584605), vec4(-0.10068613, 0.116125256, -0.20114587, 0.06323509), vec4(0.11217993, -0.048117194, 0.16280521, 0.034884017), vec4(1.0506787, 10.068197, 13.049514, -17.764614)),
+    mat4(vec4(-1.1598299, 6.9126554, -11.887382, -10.6937065), vec4(-0.5063457, 1.4594547, 2.707645, -0.41473576), vec4(0.3520074, -0.93157744, -5.942758, 7.43136), vec4(0.032555133, -0.83957905, 0.4354543, -3.0254202)),
+    mat4(vec4(-0.03307929, 0.2872462, 0.307582, -20.961397), vec4(-6.8072767, -1.608604, -0.09493034, 3.3601375), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-3.1927843, -0.7596912, 0.0, 0.0), vec4(-0.16797958, -0.28360534, 0.0, 0.0), vec4(0.097345725, 0.1268056, 0.0, 0.0), vec4(1.7302861, 0.53903437, 0.0, 0.0)),
+    mat4(vec4(0.5574605, -7.9472857, 0.0, 0.0), vec4(-2.2368462, 6.9823356, 0.0, 0.0), vec4(-3.3104074, -10.6633005, 0.0, 0.0), vec4(4.8967834, -6.983885, 0.0, 0.0)),
+    mat4(vec4(5.501963, 0.5043578, 0.0, 0.0), vec4(-4.593644, 1.2066915, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0), vec4(0.0, 0.0, 0.0, 0.0))
 );
 const mat4 NMT_W2[8] = mat4[8](
-    mat4(vec4(1.1419989, -1.4198644, -0.19373854, 0.56172514), vec4(-0.75568086, -1.1981204, -0.7734579, 0.29221427), vec4(0.072205335, 2.5015967, -0.56138813, -0.7423831), vec4(-0.34978172, 1.01927, -0.19402012, 1.2962704)),
-    mat4(vec4(-1.8820454, -0.9988709, -1.0608377, 3.7136261), vec4(-0.9074444, 0.100530505, -3.6432486, 0.9728528), vec4(-0.07494871, 0.06845625, 0.4569547, 1.2108296), vec4(-0.007983513, -1.39181, 2.5139186, -0.68514496)),
-    mat4(vec4(1.1394446, -1.2730776, -0.46546707, -0.12843531), vec4(-0.5475997, -0.3343885, -3.3071005, 0.58014804), vec4(-1.662909, -1.1193928, 3.9590952, -0.9652814), vec4(-3.4225204, 2.9797518, -0.11754079, 0.023971306)),
-    mat4(vec4(3.0399487, 1.6670663, -3.1889777, 2.7175567), vec4(0.0562945, 1.1437154, -3.8556113, 0.5253217), vec4(2.817947, 0.85403734, 0.7493489, 2.9479167), vec4(0.0, 0.0, 0.0, 0.0)),
-    mat4(vec4(0.4565463, 0.46166718, -7.863282, 0.4971716), vec4(2.2395608, -3.3886964, 0.4029314, -4.3679767), vec4(-3.5426292, 2.6224256, -2.0955248, -1.2515348), vec4(-2.0730424, 0.21992649, 7.2669735, -0.28032577)),
-    mat4(vec4(0.2647249, 2.2715585, 0.21832715, -1.41066), vec4(2.2557268, 0.09026979, 0.015854748, 3.7563598), vec4(0.4581541, -1.9481311, -0.054118, -0.3657199), vec4(0.9714568, -2.4021637, -0.17931756, 0.7629885)),
-    mat4(vec4(-1.542965, 2.8256016, 0.18076795, 3.3432143), vec4(0.50801617, 1.5908597, 0.3709236, -3.6185648), vec4(-0.8337836, -1.631481, -0.13030158, -6.766812), vec4(-3.4649694, -0.792588, -0.10180443, -0.32464153)),
-    mat4(vec4(2.7873704, 0.40408432, 2.34775, -1.3204027), vec4(-0.7127589, 1.8839266, -0.15561827, 3.494888), vec4(-1.5662805, -7.3176303, -4.491624, -4.135471), vec4(0.0, 0.0, 0.0, 0.0))
+    mat4(vec4(1.7685847, -1.2965266, 0.53486013, -0.29221267), vec4(0.5022446, -0.57678044, 2.8619845, 1.1610198), vec4(-1.510298, 1.0492433, -2.4719512, 0.69602823), vec4(0.4245065, -0.021788223, -2.2097266, 0.45277822)),
+    mat4(vec4(-1.9844544, -4.284621, -2.0162687, 0.80677956), vec4(-0.08269256, 0.83371484, 1.4538207, -0.3430089), vec4(0.33549848, 1.315723, -2.6486657, -0.9424922), vec4(0.6682035, 0.7352949, 0.77444446, 1.5549136)),
+    mat4(vec4(-3.7106292, 1.4094218, -3.0866914, 6.321356), vec4(2.9056916, -1.6683085, 2.5197487, -0.12306516), vec4(1.8786901, 2.9980502, 0.53554356, 0.6986177), vec4(-1.4987996, 0.16394545, -11.833226, -0.9698973)),
+    mat4(vec4(0.105152994, -2.629642, -0.26539943, 0.97390944), vec4(0.20291848, -4.665007, -3.2223794, -1.1747206), vec4(-3.0591586, 2.422517, -0.3822718, -1.1229484), vec4(0.0, 0.0, 0.0, 0.0)),
+    mat4(vec4(-2.5065336, 1.2751687, -3.1727622, 2.6094267), vec4(-0.34650132, -0.58315194, -2.036526, -0.97464854), vec4(3.4674072, 1.1141264, -2.0562246, -1.5358669), vec4(-0.8401374, 1.7635139, 0.88128996, 1.1690073)),
+    mat4(vec4(0.62812424, -0.6253937, 0.07006818, -0.3447436), vec4(4.757243, 4.1627517, -0.32235038, 1.8340607), vec4(0.95672405, -0.06239507, -0.2886359, -0.745714), vec4(-2.170308, -2.8018155, 0.12480712, -2.8756857)),
+    mat4(vec4(-0.46313936, -0.42326838, 13.634587, -0.8679801), vec4(-3.8175569, 0.6408508, 0.8411556, 1.3615565), vec4(0.9755631, 0.9696179, 0.1144694, 1.0314378), vec4(1.4169557, -0.5175313, -0.8745645, -0.68139124)),
+    mat4(vec4(-0.31971556, 0.8106935, 0.48868963, -0.17111878), vec4(0.9139772, -0.97476697, -7.719652, -1.006329), vec4(4.2278967, -1.388446, -2.153287, 4.008335), vec4(0.0, 0.0, 0.0, 0.0))
 );
 const vec4 NMT_W3[2] = vec4[2](
-    vec4(-0.24083899, 0.15409076, 0.13565949, -0.2946874),
-    vec4(0.1629475, 0.3656696, -1.2356493, -0.1714698)
+    vec4(-0.2411506, 0.1824429, 0.16963111, -0.3715353),
+    vec4(-0.2563782, 0.3967364, -1.0420152, -0.3345766)
 );
-const float NMT_B3 = -0.33463305;
+const float NMT_B3 = 0.17377278;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
 float nmt_share(mat3x4 f) {
@@ -149,31 +149,47 @@ uvec2 nmt_core_heavy_steps(uint code, NmtCodes codes) {
     return uvec2(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
 }
 
-// Where the moments of the tail leave T open by no more than this, it is the middle of what they allow, and the network
-// is not asked. 0 always asks it; 1/256 cannot be seen.
+// Where the moments of the tail leave what the fragment adds to the image open by no more than this, T is the middle of
+// what they allow, and the network is not asked. 0 always asks it; 1/512 cannot be seen.
 const float NMT_OPEN = 0.0;
 
-// Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
-vec2 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
+// Least and greatest share of the tail that may lie in front of x, from its moments, and by how much more they err than
+// these: Markov's bounds.
+vec3 nmt_core_bounds(float x, float m1, float m2, float m3, float m4) {
     float mean = m1 * 0.9999;
     float second = m2 * 0.9999 + 3.3333334e-5;
     float third = m3 * 0.9999;
+    float fourth = m4 * 0.9999 + 2e-5;
     float square = mean * mean;
     float variance = max(second - square, 1e-7);
     float per_deviation = 1.0 / sqrt(variance);
     float per_variance = per_deviation * per_deviation;
     float skewness = clamp((third - mean * (3.0 * second - 2.0 * square)) * per_variance * per_deviation, -30.0, 30.0);
-    float d = clamp((m4 * 0.9999 + 2e-5 - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square)))
-        * per_variance * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
+    float d = clamp((fourth - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square))) * per_variance
+        * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
     float y = (x - mean) * per_deviation;
-    float q = (y * (y - skewness) - 1.0) / d;
+    float per_d = 1.0 / d;
+    float q = (y * (y - skewness) - 1.0) * per_d;
     float at = 1.0 / (1.0 + y * y + q * q * d);
     float rest = 1.0 - at;
     float linear_ = y - q * skewness;
     float per_root = 1.0 / sqrt(max(linear_ * linear_ - 4.0 * q * (1.0 - q), 1e-12));
     float between = clamp(0.5 * rest * (1.0 + linear_ * per_root) - at * y * q * per_root, 0.0, rest);
     float lower = (q < 0.0 ? between : (y > 0.5 * skewness ? rest : 0.0));
-    return vec2(lower, lower + at);
+    float inner = max(1.0 - second, 1e-6);
+    float per_inner = 1.0 / inner;
+    float inner_mean = (mean - third) * per_inner;
+    float inner_second = (second - fourth) * per_inner;
+    float width = max(inner_second - inner_mean * inner_mean, 1e-7);
+    float place = inner_mean - x;
+    float of_inner = width / (width + place * place);
+    float ended = inner * of_inner / max(1.0 - x * x, 1e-6);
+    float side = (place < 0.0 ? -1.0 : 1.0);
+    float of_fourth = inner * (1.0 - of_inner) * abs(place) / max(abs(place) + inner_second - x * inner_mean, 1e-6);
+    float at_end = clamp(0.5 * (1.0 - side * mean - ended * (1.0 - side * x) - of_fourth), 0.0, max(1.0 - ended, 0.0));
+    float least = (ended < at ? (place < 0.0 ? 1.0 - ended - at_end : at_end) : lower);
+    float most = (ended < at ? ended : at);
+    return vec3(least, least + most, per_variance * per_variance * per_d);
 }
 
 // Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), from the
@@ -255,22 +271,21 @@ float nmt_core_weigh(float z, float absorbance, vec4 depths0, vec4 absorbances0,
         float known = min(exp(-(front_4 + absorbance_of_tail * exact_4)), 1.0);
         return known;
     }
-    vec2 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
-    float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
-    float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
+    vec3 bounds = nmt_core_bounds(x, m1, m2, m3, m4);
     if (NMT_OPEN > 0.0) {
-        float bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * ((1.0 + abs(center)) * per_h + 1.0)
-            * 4.7683716e-7 * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0
-            + abs(center)) * per_h + 1.0) / (max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
-            * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7) * max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
-            * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7));
+        float bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0
+            + abs(center)) * per_h + 1.0) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0)))
+            * bounds.z * 1.4901161e-8;
         float most = min(exp(-(front_4 + absorbance_of_tail * max(bounds.x - bounds_noise, 0.0))), 1.0);
         float least = min(exp(-(front_4 + absorbance_of_tail * min(bounds.y + bounds_noise, 1.0))), 1.0);
-        if (most - least <= NMT_OPEN) {
+        float opacity = 1.0 - exp(-absorbance);
+        if (opacity * (most - least) <= NMT_OPEN) {
             float middle = 0.5 * (most + least);
             return middle;
         }
     }
+    float mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
+    float mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
     return exp(-front_4) * nmt_transmittance(mat3x4(vec4(x, log2(others) * 0.33333334 - 1.0, log(absorbance_of_tail
         + 0.05), bounds.x), vec4(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
         * mean, 1e-6), 0.0, 1.0), mean_2), vec4(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0 - m2, 1e-6)) - mean_2 * mean_2)

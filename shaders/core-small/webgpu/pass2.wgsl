@@ -4,38 +4,38 @@
 // Textures of group 1: the targets of pass 1; behind them the buffer of pass 1, as pairs.
 //
 // Neural moment transparency: network 'core-small', 9-14-8-1, 246 multiply-adds.
-// Provenance: nmt 0.1.0, commit b1d5f0d9a708, backend fused, seed 1, epochs 1500, dataset 9636ee68609509b56e59e891665a02e7488e2241af88306025242c084edbf4a2.
-// Measured on fresh pixels of the training distribution: mean squared error of T 2.550e-3, worst 1.000.
+// Provenance: nmt 0.1.0, commit a848199e5c6e, backend fused, seed 1, epochs 1500, dataset 4cb0c11bc9538ca61a2ffd6e935d976f36720f667fe3b7ae3813684c758f300e.
+// Measured on fresh pixels of the training distribution: mean squared error of T 2.533e-3, worst 1.000.
 
 const NMT_W1 = array<mat4x4<f32>, 12>(
-    mat4x4<f32>(vec4<f32>(4.633581f, 1.5577128f, 4.847308f, -7.9550843f), vec4<f32>(-0.040778674f, 0.30109483f, 0.18810418f, 0.08001085f), vec4<f32>(0.1270906f, -0.113899805f, -0.09940042f, 0.06291714f), vec4<f32>(-5.239348f, 4.4244847f, 11.981173f, -5.647331f)),
-    mat4x4<f32>(vec4<f32>(-6.316239f, 7.0866685f, 0.7747114f, -6.249695f), vec4<f32>(-2.8813026f, 1.3543744f, -2.5794756f, -3.425034f), vec4<f32>(-0.14739996f, 2.974767f, 1.035014f, -0.48165968f), vec4<f32>(-0.58785886f, 0.50425225f, 0.19695403f, -0.901528f)),
-    mat4x4<f32>(vec4<f32>(0.21754104f, -2.6533523f, 0.27809235f, 0.23363206f), vec4<f32>(7.509731f, 0.018536674f, 5.0530396f, -3.8738046f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(-3.1414006f, 4.4425554f, -0.89057094f, -1.1077212f), vec4<f32>(-0.059489608f, -0.20166463f, -0.23307152f, -0.11338352f), vec4<f32>(0.05209868f, 0.059970256f, 0.18867385f, 0.09877608f), vec4<f32>(26.519499f, 20.081259f, -4.729799f, -1.1468024f)),
-    mat4x4<f32>(vec4<f32>(-21.093914f, -0.65355283f, -12.0057335f, 5.4057674f), vec4<f32>(5.5124702f, -0.11932348f, -2.0397336f, -3.026001f), vec4<f32>(-7.544677f, -1.4594955f, 0.9759642f, -4.3099356f), vec4<f32>(-4.8257446f, -1.2188243f, 4.2050624f, 4.96347f)),
-    mat4x4<f32>(vec4<f32>(0.29272616f, 5.196453f, 1.3102355f, 0.27936175f), vec4<f32>(-0.21944292f, 2.4984572f, 1.7173952f, 1.3231782f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(-1.8677667f, -0.47189677f, 3.3769467f, 2.4587243f), vec4<f32>(-0.22109956f, 0.060226426f, 0.052055903f, 0.11305356f), vec4<f32>(0.05001351f, 0.039633315f, -0.020085853f, -0.10174877f), vec4<f32>(-1.739131f, 5.6659603f, 12.399412f, -3.9291306f)),
-    mat4x4<f32>(vec4<f32>(-23.451077f, 3.901157f, -12.326258f, -16.445658f), vec4<f32>(-2.008173f, -3.4493191f, -4.080363f, -9.312441f), vec4<f32>(-1.5544633f, -5.9060125f, -1.8305857f, -1.870911f), vec4<f32>(1.8193483f, 8.248149f, 1.6809378f, 8.031535f)),
-    mat4x4<f32>(vec4<f32>(4.5426483f, 6.092583f, 10.385813f, 5.0848346f), vec4<f32>(0.7915796f, -2.201602f, -0.02491766f, 1.6812139f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(-6.600309f, 0.123911336f, 0.0f, 0.0f), vec4<f32>(-0.1909336f, 0.3993747f, 0.0f, 0.0f), vec4<f32>(0.13846499f, -0.076549605f, 0.0f, 0.0f), vec4<f32>(9.1780405f, -24.788761f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(-1.6179283f, 4.5265007f, 0.0f, 0.0f), vec4<f32>(-1.2897608f, 3.906312f, 0.0f, 0.0f), vec4<f32>(1.3081037f, 3.0357022f, 0.0f, 0.0f), vec4<f32>(0.94770765f, -3.043183f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(-0.08552459f, -9.461983f, 0.0f, 0.0f), vec4<f32>(-6.4232793f, 1.3108759f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
+    mat4x4<f32>(vec4<f32>(4.8778276f, -0.7319692f, 3.6530824f, -1.6481752f), vec4<f32>(-0.24516319f, -0.27494642f, -0.023510791f, 0.11400228f), vec4<f32>(0.228575f, 0.25520048f, 0.13499178f, -0.10372328f), vec4<f32>(-0.5467422f, 2.6183908f, 8.650195f, -1.3826258f)),
+    mat4x4<f32>(vec4<f32>(-5.8551807f, -1.0576799f, 2.7924774f, -8.082505f), vec4<f32>(-2.5652757f, 2.1842368f, -0.101185136f, 0.8496825f), vec4<f32>(0.11754783f, 1.1701148f, 0.4261731f, 1.0241573f), vec4<f32>(-0.5958086f, 0.81029135f, -0.8975072f, -1.8926371f)),
+    mat4x4<f32>(vec4<f32>(1.3035642f, -0.14273503f, -0.14144559f, 2.2584605f), vec4<f32>(5.9671373f, 1.4847919f, 3.1871316f, 1.8420736f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-3.098758f, 2.3643606f, 1.9390315f, -0.025061242f), vec4<f32>(0.013713428f, 0.24798474f, -0.17473f, 0.1092438f), vec4<f32>(-0.016801622f, -0.1513876f, 0.054045714f, -0.00874805f), vec4<f32>(14.739972f, -164.7957f, 7.3871503f, -26.957058f)),
+    mat4x4<f32>(vec4<f32>(-8.423298f, -16.265095f, -6.763347f, -3.6461272f), vec4<f32>(5.1973667f, -6.2610235f, -5.804388f, -0.79259384f), vec4<f32>(-5.0187683f, -2.1178577f, -0.1445185f, -0.47444504f), vec4<f32>(-5.852785f, 4.4160266f, 4.6112943f, -0.07370595f)),
+    mat4x4<f32>(vec4<f32>(0.495891f, 6.758663f, -0.74108994f, -2.9599438f), vec4<f32>(-0.9314051f, 1.3079683f, 2.440642f, 4.655624f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-7.4299335f, -0.2297995f, -3.6704452f, 3.7584605f), vec4<f32>(-0.10068613f, 0.116125256f, -0.20114587f, 0.06323509f), vec4<f32>(0.11217993f, -0.048117194f, 0.16280521f, 0.034884017f), vec4<f32>(1.0506787f, 10.068197f, 13.049514f, -17.764614f)),
+    mat4x4<f32>(vec4<f32>(-1.1598299f, 6.9126554f, -11.887382f, -10.6937065f), vec4<f32>(-0.5063457f, 1.4594547f, 2.707645f, -0.41473576f), vec4<f32>(0.3520074f, -0.93157744f, -5.942758f, 7.43136f), vec4<f32>(0.032555133f, -0.83957905f, 0.4354543f, -3.0254202f)),
+    mat4x4<f32>(vec4<f32>(-0.03307929f, 0.2872462f, 0.307582f, -20.961397f), vec4<f32>(-6.8072767f, -1.608604f, -0.09493034f, 3.3601375f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-3.1927843f, -0.7596912f, 0.0f, 0.0f), vec4<f32>(-0.16797958f, -0.28360534f, 0.0f, 0.0f), vec4<f32>(0.097345725f, 0.1268056f, 0.0f, 0.0f), vec4<f32>(1.7302861f, 0.53903437f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(0.5574605f, -7.9472857f, 0.0f, 0.0f), vec4<f32>(-2.2368462f, 6.9823356f, 0.0f, 0.0f), vec4<f32>(-3.3104074f, -10.6633005f, 0.0f, 0.0f), vec4<f32>(4.8967834f, -6.983885f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(5.501963f, 0.5043578f, 0.0f, 0.0f), vec4<f32>(-4.593644f, 1.2066915f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
 );
 const NMT_W2 = array<mat4x4<f32>, 8>(
-    mat4x4<f32>(vec4<f32>(1.1419989f, -1.4198644f, -0.19373854f, 0.56172514f), vec4<f32>(-0.75568086f, -1.1981204f, -0.7734579f, 0.29221427f), vec4<f32>(0.072205335f, 2.5015967f, -0.56138813f, -0.7423831f), vec4<f32>(-0.34978172f, 1.01927f, -0.19402012f, 1.2962704f)),
-    mat4x4<f32>(vec4<f32>(-1.8820454f, -0.9988709f, -1.0608377f, 3.7136261f), vec4<f32>(-0.9074444f, 0.100530505f, -3.6432486f, 0.9728528f), vec4<f32>(-0.07494871f, 0.06845625f, 0.4569547f, 1.2108296f), vec4<f32>(-0.007983513f, -1.39181f, 2.5139186f, -0.68514496f)),
-    mat4x4<f32>(vec4<f32>(1.1394446f, -1.2730776f, -0.46546707f, -0.12843531f), vec4<f32>(-0.5475997f, -0.3343885f, -3.3071005f, 0.58014804f), vec4<f32>(-1.662909f, -1.1193928f, 3.9590952f, -0.9652814f), vec4<f32>(-3.4225204f, 2.9797518f, -0.11754079f, 0.023971306f)),
-    mat4x4<f32>(vec4<f32>(3.0399487f, 1.6670663f, -3.1889777f, 2.7175567f), vec4<f32>(0.0562945f, 1.1437154f, -3.8556113f, 0.5253217f), vec4<f32>(2.817947f, 0.85403734f, 0.7493489f, 2.9479167f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
-    mat4x4<f32>(vec4<f32>(0.4565463f, 0.46166718f, -7.863282f, 0.4971716f), vec4<f32>(2.2395608f, -3.3886964f, 0.4029314f, -4.3679767f), vec4<f32>(-3.5426292f, 2.6224256f, -2.0955248f, -1.2515348f), vec4<f32>(-2.0730424f, 0.21992649f, 7.2669735f, -0.28032577f)),
-    mat4x4<f32>(vec4<f32>(0.2647249f, 2.2715585f, 0.21832715f, -1.41066f), vec4<f32>(2.2557268f, 0.09026979f, 0.015854748f, 3.7563598f), vec4<f32>(0.4581541f, -1.9481311f, -0.054118f, -0.3657199f), vec4<f32>(0.9714568f, -2.4021637f, -0.17931756f, 0.7629885f)),
-    mat4x4<f32>(vec4<f32>(-1.542965f, 2.8256016f, 0.18076795f, 3.3432143f), vec4<f32>(0.50801617f, 1.5908597f, 0.3709236f, -3.6185648f), vec4<f32>(-0.8337836f, -1.631481f, -0.13030158f, -6.766812f), vec4<f32>(-3.4649694f, -0.792588f, -0.10180443f, -0.32464153f)),
-    mat4x4<f32>(vec4<f32>(2.7873704f, 0.40408432f, 2.34775f, -1.3204027f), vec4<f32>(-0.7127589f, 1.8839266f, -0.15561827f, 3.494888f), vec4<f32>(-1.5662805f, -7.3176303f, -4.491624f, -4.135471f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
+    mat4x4<f32>(vec4<f32>(1.7685847f, -1.2965266f, 0.53486013f, -0.29221267f), vec4<f32>(0.5022446f, -0.57678044f, 2.8619845f, 1.1610198f), vec4<f32>(-1.510298f, 1.0492433f, -2.4719512f, 0.69602823f), vec4<f32>(0.4245065f, -0.021788223f, -2.2097266f, 0.45277822f)),
+    mat4x4<f32>(vec4<f32>(-1.9844544f, -4.284621f, -2.0162687f, 0.80677956f), vec4<f32>(-0.08269256f, 0.83371484f, 1.4538207f, -0.3430089f), vec4<f32>(0.33549848f, 1.315723f, -2.6486657f, -0.9424922f), vec4<f32>(0.6682035f, 0.7352949f, 0.77444446f, 1.5549136f)),
+    mat4x4<f32>(vec4<f32>(-3.7106292f, 1.4094218f, -3.0866914f, 6.321356f), vec4<f32>(2.9056916f, -1.6683085f, 2.5197487f, -0.12306516f), vec4<f32>(1.8786901f, 2.9980502f, 0.53554356f, 0.6986177f), vec4<f32>(-1.4987996f, 0.16394545f, -11.833226f, -0.9698973f)),
+    mat4x4<f32>(vec4<f32>(0.105152994f, -2.629642f, -0.26539943f, 0.97390944f), vec4<f32>(0.20291848f, -4.665007f, -3.2223794f, -1.1747206f), vec4<f32>(-3.0591586f, 2.422517f, -0.3822718f, -1.1229484f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f)),
+    mat4x4<f32>(vec4<f32>(-2.5065336f, 1.2751687f, -3.1727622f, 2.6094267f), vec4<f32>(-0.34650132f, -0.58315194f, -2.036526f, -0.97464854f), vec4<f32>(3.4674072f, 1.1141264f, -2.0562246f, -1.5358669f), vec4<f32>(-0.8401374f, 1.7635139f, 0.88128996f, 1.1690073f)),
+    mat4x4<f32>(vec4<f32>(0.62812424f, -0.6253937f, 0.07006818f, -0.3447436f), vec4<f32>(4.757243f, 4.1627517f, -0.32235038f, 1.8340607f), vec4<f32>(0.95672405f, -0.06239507f, -0.2886359f, -0.745714f), vec4<f32>(-2.170308f, -2.8018155f, 0.12480712f, -2.8756857f)),
+    mat4x4<f32>(vec4<f32>(-0.46313936f, -0.42326838f, 13.634587f, -0.8679801f), vec4<f32>(-3.8175569f, 0.6408508f, 0.8411556f, 1.3615565f), vec4<f32>(0.9755631f, 0.9696179f, 0.1144694f, 1.0314378f), vec4<f32>(1.4169557f, -0.5175313f, -0.8745645f, -0.68139124f)),
+    mat4x4<f32>(vec4<f32>(-0.31971556f, 0.8106935f, 0.48868963f, -0.17111878f), vec4<f32>(0.9139772f, -0.97476697f, -7.719652f, -1.006329f), vec4<f32>(4.2278967f, -1.388446f, -2.153287f, 4.008335f), vec4<f32>(0.0f, 0.0f, 0.0f, 0.0f))
 );
 const NMT_W3 = array<vec4<f32>, 2>(
-    vec4<f32>(-0.24083899f, 0.15409076f, 0.13565949f, -0.2946874f),
-    vec4<f32>(0.1629475f, 0.3656696f, -1.2356493f, -0.1714698f)
+    vec4<f32>(-0.2411506f, 0.1824429f, 0.16963111f, -0.3715353f),
+    vec4<f32>(-0.2563782f, 0.3967364f, -1.0420152f, -0.3345766f)
 );
-const NMT_B3: f32 = -0.33463305f;
+const NMT_B3: f32 = 0.17377278f;
 
 // Share of the other fragments' absorbance that lies in front of the fragment with features f, in [0, 1].
 fn nmt_share(f: mat3x4<f32>) -> f32 {
@@ -140,31 +140,47 @@ fn nmt_core_heavy_steps(code: u32, codes: NmtCodes) -> vec2<u32> {
     return vec2<u32>(NMT_LAST_DEPTH - nearness, key - ((nearness * codes.slope) >> NMT_DEPTH_BITS));
 }
 
-// Where the moments of the tail leave T open by no more than this, it is the middle of what they allow, and the network
-// is not asked. 0 always asks it; 1/256 cannot be seen.
+// Where the moments of the tail leave what the fragment adds to the image open by no more than this, T is the middle of
+// what they allow, and the network is not asked. 0 always asks it; 1/512 cannot be seen.
 const NMT_OPEN: f32 = 0.0;
 
-// Least and greatest share of the tail that may lie in front of x, from its moments: Markov's bounds.
-fn nmt_core_bounds(x: f32, m1: f32, m2: f32, m3: f32, m4: f32) -> vec2<f32> {
+// Least and greatest share of the tail that may lie in front of x, from its moments, and by how much more they err than
+// these: Markov's bounds.
+fn nmt_core_bounds(x: f32, m1: f32, m2: f32, m3: f32, m4: f32) -> vec3<f32> {
     let mean = m1 * 0.9999;
     let second = m2 * 0.9999 + 3.3333334e-5;
     let third = m3 * 0.9999;
+    let fourth = m4 * 0.9999 + 2e-5;
     let square = mean * mean;
     let variance = max(second - square, 1e-7);
     let per_deviation = 1.0 / sqrt(variance);
     let per_variance = per_deviation * per_deviation;
     let skewness = clamp((third - mean * (3.0 * second - 2.0 * square)) * per_variance * per_deviation, -30.0, 30.0);
-    let d = clamp((m4 * 0.9999 + 2e-5 - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square))) * per_variance
+    let d = clamp((fourth - mean * (4.0 * third - mean * (6.0 * second - 3.0 * square))) * per_variance
         * per_variance - skewness * skewness - 1.0, 0.001, 10000.0);
     let y = (x - mean) * per_deviation;
-    let q = (y * (y - skewness) - 1.0) / d;
+    let per_d = 1.0 / d;
+    let q = (y * (y - skewness) - 1.0) * per_d;
     let at = 1.0 / (1.0 + y * y + q * q * d);
     let rest = 1.0 - at;
     let linear_ = y - q * skewness;
     let per_root = 1.0 / sqrt(max(linear_ * linear_ - 4.0 * q * (1.0 - q), 1e-12));
     let between = clamp(0.5 * rest * (1.0 + linear_ * per_root) - at * y * q * per_root, 0.0, rest);
     let lower = select(select(0.0, rest, y > 0.5 * skewness), between, 0.0 > q);
-    return vec2<f32>(lower, lower + at);
+    let inner = max(1.0 - second, 1e-6);
+    let per_inner = 1.0 / inner;
+    let inner_mean = (mean - third) * per_inner;
+    let inner_second = (second - fourth) * per_inner;
+    let width = max(inner_second - inner_mean * inner_mean, 1e-7);
+    let place = inner_mean - x;
+    let of_inner = width / (width + place * place);
+    let ended = inner * of_inner / max(1.0 - x * x, 1e-6);
+    let side = select(1.0, -1.0, 0.0 > place);
+    let of_fourth = inner * (1.0 - of_inner) * abs(place) / max(abs(place) + inner_second - x * inner_mean, 1e-6);
+    let at_end = clamp(0.5 * (1.0 - side * mean - ended * (1.0 - side * x) - of_fourth), 0.0, max(1.0 - ended, 0.0));
+    let least = select(lower, select(at_end, 1.0 - ended - at_end, 0.0 > place), at > ended);
+    let most = select(at, ended, at > ended);
+    return vec3<f32>(least, least + most, per_variance * per_variance * per_d);
 }
 
 // Transmittance in front of a fragment of moment depth z: e^-(core in front of it + its share of the tail), from the
@@ -248,21 +264,20 @@ fn nmt_core_weigh(z: f32, absorbance: f32, depths0: vec4<f32>, absorbances0: vec
         return known;
     }
     let bounds = nmt_core_bounds(x, m1, m2, m3, m4);
-    let mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
-    let mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
     if (NMT_OPEN > 0.0) {
-        let bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * ((1.0 + abs(center)) * per_h + 1.0) * 4.7683716e-7
-            * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h
-            + 1.0) / (max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0)
-            * (1.0 - mean * mean), 1e-7) * max(clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean * mean) / max(1.0 - mean
-            * mean, 1e-6), 0.0, 1.0) * (1.0 - mean * mean), 1e-7));
+        let bounds_noise = b0 / max(absorbance_of_tail, 1e-12) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0
+            + abs(center)) * per_h + 1.0) * (((1.0 + abs(center)) * per_h + 1.0) * ((1.0 + abs(center)) * per_h + 1.0)))
+            * bounds.z * 1.4901161e-8;
         let most = min(exp(-(front_4 + absorbance_of_tail * max(bounds.x - bounds_noise, 0.0))), 1.0);
         let least = min(exp(-(front_4 + absorbance_of_tail * min(bounds.y + bounds_noise, 1.0))), 1.0);
-        if (most - least <= NMT_OPEN) {
+        let opacity = 1.0 - exp(-absorbance);
+        if (opacity * (most - least) <= NMT_OPEN) {
             let middle = 0.5 * (most + least);
             return middle;
         }
     }
+    let mean = clamp(m1 * (1.0 / max(1.0, 1e-6)), -1.0, 1.0);
+    let mean_2 = clamp((m1 - m3) * (1.0 / max(1.0 - m2, 1e-6)), -1.0, 1.0);
     return exp(-front_4) * nmt_transmittance(mat3x4<f32>(vec4<f32>(x, log2(others) * 0.33333334 - 1.0,
         log(absorbance_of_tail + 0.05), bounds.x), vec4<f32>(bounds.y, mean, clamp((m2 * (1.0 / max(1.0, 1e-6)) - mean
         * mean) / max(1.0 - mean * mean, 1e-6), 0.0, 1.0), mean_2), vec4<f32>(sqrt(clamp(((m2 - m4) * (1.0 / max(1.0

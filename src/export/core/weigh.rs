@@ -264,7 +264,7 @@ fn on_numbers<const N: usize>(set: CoreSet, language: Target, tail: Tail) -> Str
     let source = Source::new(dialect(language), "nmt_core");
     if let Tail::Network { open } = tail {
         let about = "Where the moments of the tail leave what the fragment adds to the image open by no more than \
-                     this, T is the middle of what they allow, and the network is not asked. 0 always asks it; 1/256 \
+                     this, T is the middle of what they allow, and the network is not asked. 0 always asks it; 1/512 \
                      cannot be seen.";
         source.constant(OPEN_SWITCH, about, open);
     }
