@@ -316,8 +316,8 @@ fn inside<R: Real>([lower, at]: [R; 2], [lower_ended, ended]: [R; 2]) -> [R; 2] 
     ]
 }
 
-/// The measure of both ends, x and a fourth point that has these moments: share in front of x, and mass at it. That mass
-/// is the bound of two moments of (1 − x²) times the measure.
+/// The measure of both ends, x and a fourth point that has these moments: share in front of x, and mass at it. That
+/// mass is the bound of two moments of (1 − x²) times the measure.
 #[inline(always)]
 fn with_both_ends<R: Real>(x: R, [mean, second, third, fourth]: [R; 4]) -> [R; 2] {
     let inner = (c(1.0) - second).max(c(MIN_MASS)).named("inner");
@@ -470,8 +470,8 @@ mod tests {
         assert!(broken > 2000 && wide < 10_000, "{broken} {wide}");
     }
 
-    /// The uniform law's bounds at points of quadratures: Gauss's of three points in the middle, Lobatto's of three and of
-    /// four points, whose ends are those of the interval. To 1e-9.
+    /// The uniform law's bounds at points of quadratures: Gauss's of three points in the middle, Lobatto's of three and
+    /// of four points, whose ends are those of the interval. To 1e-9.
     /// Control: a place beside the point.
     #[test]
     fn bounds_of_the_uniform_law_are_quadratures() {
@@ -490,8 +490,8 @@ mod tests {
         assert!((bounds(at + 0.01, four).share[0] - 0.5).abs() > 1e-3);
     }
 
-    /// Bounds of sums in f32 differ from those in f64 by no more than the noise that is foreseen, in all but a thousandth
-    /// of random pixels, thin ones and deep ones, out of which heavy fragments are taken.
+    /// Bounds of sums in f32 differ from those in f64 by no more than the noise that is foreseen, in all but a
+    /// thousandth of random pixels, thin ones and deep ones, out of which heavy fragments are taken.
     /// Control: a thirtieth of that noise is not enough for as many.
     #[test]
     fn rounding_stays_within_the_noise() {
